@@ -65,32 +65,34 @@ def probe(module, observed, acted, maxsteps):
 def why_limits(got: np.ndarray, wanted: np.ndarray, high: np.ndarray) -> str:
     """What is wrong with limits; high: those of the other side."""
     if np.allclose(got, -high):
-        return "\n  It is minus the other limit, but each number has two limits of its own."
+        return "\n  These are minus the other limits, but each number has two limits of its own."
     exact = wanted.astype(np.float64)
     if any(np.array_equal(got, np.round(exact, places)) for places in range(5)):
-        return "\n  These are rounded limits: give them as they are."
+        return "\n  These are rounded limits, but they should be given as they are."
     return ""
 
 
 def expect_space(said: str, got: object, space: gymnasium.Space) -> None:
     if isinstance(space, gymnasium.spaces.Discrete):
         kind, choices, first = expect_fields(said, got, "kind", "choices", "first")
-        expect(kind == "Discrete", f"{said}: kind is {show(kind)}, but the space is Discrete.")
+        expect(kind == "Discrete", f"{said}: kind is {show(kind)}, but should be 'Discrete'.")
         mistakes = {
-            "The first choice is subtracted from the number of choices.": space.n - space.start,
-            "The last choice is taken for the number of choices.": space.n + space.start - 1,
+            "The first choice is subtracted from the number of choices, but space.n is asked "
+            "for.": space.n - space.start,
+            "This is the number of the last choice, but how many choices there are is asked "
+            "for.": space.n + space.start - 1,
         }
-        expect_close(f"{said}: choices of {space}", choices, space.n, mistakes=mistakes)
-        expect_close(f"{said}: first of {space}", first, space.start)
+        expect_close(f'{said}: "choices" of {space}', choices, space.n, mistakes=mistakes)
+        expect_close(f'{said}: "first" of {space}', first, space.start)
         return
     kind, size, low, high = expect_fields(said, got, "kind", "size", "low", "high")
-    expect(kind == "Box", f"{said}: kind is {show(kind)}, but the space is a Box.")
+    expect(kind == "Box", f"{said}: kind is {show(kind)}, but should be 'Box'.")
     expect_close(f"{said}: size", size, space.low.size)
     for name, bounds, wanted in (("low", low, space.low), ("high", high, space.high)):
         expect(
             isinstance(bounds, list) and len(bounds) == wanted.size,
-            f"{said}: {name} is {show(bounds)}, but a flat list of {wanted.size} numbers is "
-            "needed.",
+            f"{said}: {name} is {show(bounds)}, but should be a flat list of {wanted.size} "
+            f"number{'s' * (wanted.size > 1)}.",
         )
         fit = all(type(bound) in (int, float) for bound in bounds)
         if not fit or not np.allclose(bounds, wanted.ravel(), rtol=1e-6, atol=0):
@@ -155,7 +157,8 @@ def time_limit(student: Student):
         (maxsteps,) = expect_fields(student.said, answer, "maxsteps")
         expect(
             type(maxsteps) in (int, type(None)) and maxsteps == wanted,
-            f"{student.said}: maxsteps is {show(maxsteps)}, but {wanted} was expected"
+            f"{student.said}: maxsteps is {show(maxsteps)}, but "
+            f"{'the int ' if wanted else ''}{wanted} was expected"
             f"{'.' if wanted else ', as this environment has no time limit.'}",
         )
 
@@ -236,7 +239,7 @@ def told(student: Student, case: int) -> tuple[dict, np.ndarray, dict]:
     many = f"{len(actions)} actions" if fit and len(actions) > maxsteps else show(actions)
     expect(
         fit and 0 < len(actions) <= maxsteps,
-        f"{student.said}: actions must be a list of 1 to {maxsteps} actions, not {many}.",
+        f"{student.said}: actions should be a list of 1 to {maxsteps} actions, not {many}.",
     )
     with gymnasium.make(name) as env:
         observations, rewards, ends = [env.reset(seed=seed)[0]], [], [False, False]
@@ -259,7 +262,7 @@ def told(student: Student, case: int) -> tuple[dict, np.ndarray, dict]:
                 )
             expect(
                 belongs(action, env.action_space),
-                f"{student.said}: {show(action)} is no action of {name}.",
+                f"{student.said}: {show(action)} is not an action of {name}.",
             )
             fitting = env.action_space.dtype.type(action)
             observation, reward, *ends, _ = env.step(fitting)
@@ -275,15 +278,22 @@ def observations_and_rewards_follow_from_the_actions(student: Student):
         report, actions, replay = told(student, case)
         expect(
             len(actions) > 3,
-            f"{student.said} has only {len(actions)} actions, but the episode is longer.",
+            f"{student.said} has only {len(actions)} action{'s' * (len(actions) > 1)}, but the "
+            "episode is longer.",
         )
         before = replay["observations"][[0, *range(len(actions))]]
         for key, mistakes in (
-            ("observations", {"Kept is what was observed before each step, not after it.": before}),
+            (
+                "observations",
+                {
+                    "The observation from before each step is kept, but the one after it is asked "
+                    "for.": before
+                },
+            ),
             ("rewards", {}),
         ):
             expect_close(
-                f"{student.said}: {key} (against its actions, replayed)",
+                f"{student.said}: {key} (compared with a replay of its actions)",
                 report[key], replay[key], 1e-6, mistakes,
             )  # fmt: skip
 
@@ -295,11 +305,15 @@ def every_action_is_drawn_from_the_seeded_space(student: Student):
         _, actions, _ = told(student, case)
         wanted = lived(name, seed_of(case), maxsteps)["actions"]
         together = min(len(actions), len(wanted), 30)
-        expect(together > 3, f"{student.said} has only {len(actions)} actions.")
+        expect(
+            together > 3,
+            f"{student.said} has only {len(actions)} action{'s' * (len(actions) > 1)}, but the "
+            "episode is longer.",
+        )
         expect(
             np.array_equal(actions[:together], wanted[:together]),
             f"{student.said}: the actions are not those that env.action_space.sample() gives "
-            "after env.action_space.seed(seed)."
+            "step by step after a single env.action_space.seed(seed)."
             f"{' 0 is a seed like any other.' * (case == ZERO)}",
         )
 
@@ -339,8 +353,8 @@ def ends_of(student: Student, case: int) -> tuple[tuple, tuple, int]:
     name, maxsteps = CASES[case]
     expect(
         replay["terminated"] or replay["truncated"] or len(actions) == maxsteps,
-        f"{student.said} holds {len(actions)} steps. {name}, reset with this seed, is not over "
-        "after these actions.",
+        f"{student.said} stops after {len(actions)} step{'s' * (len(actions) > 1)}, but {name}, "
+        "reset with this seed, is not over after these actions.",
     )
     got, ends = ((each["terminated"], each["truncated"]) for each in (report, replay))
     return got, ends, len(actions)
@@ -367,7 +381,7 @@ def tells_the_two_ends_apart(student: Student):
         for key, value, right in zip(("terminated", "truncated"), got, ends, strict=True):
             expect(value is right, f"{student.said}: {key} is {show(value)}, but {why} {right}.")
 
-    said = "random_episode(an environment whose task ends in step 7, its time limit, ...)"
+    said = "random_episode(an environment whose task and time limit both end in step 7, ...)"
     report = student.run(ended_twice, 7, seed_of(0), said=said)
     _, actions, _, *told_ends = expect_fields(said, report, *KEYS)
     expect_close(f"{said}: the number of actions", len(actions), 7)
@@ -474,19 +488,19 @@ def knows_both_limits(student: Student):
             measure = f"{np.rad2deg(abs(observation[2])):.4f} degrees, just {over} 12"
         expect(
             value == (over == "above"),
-            f"fallen({observation.tolist()}) returned {value}: this is {measure}. Compare with "
-            "exactly 2.4 metres and 12 degrees (0.20944 radians), not with rounded numbers.",
+            f"fallen({observation.tolist()}) returned {value}, but this is {measure}. The limits "
+            "should be exactly 2.4 metres and 12 degrees (0.20944 radians), without rounding.",
         )
 
     for position, wanted in ((2.4, False), (-2.4, False), (np.nextafter(2.4, 3), True)):
         observation = [float(position), 0.5, 0.0, 0.0]
         got = student.run(answers, "fallen", np.array([observation]), None, said="fallen(...)")
         (value,) = truth_values(f"fallen({observation})", got, 1)
-        why = "this is a tiny bit more" if wanted else "exactly 2.4 is still allowed"
+        why = "this is slightly more" if wanted else "exactly 2.4 is still allowed"
         expect(
             value == wanted,
-            f"fallen({observation}) returned {value}, but {wanted} is right. The cart must be "
-            f"more than 2.4 metres away: {why}.",
+            f"fallen({observation}) returned {value}, but {wanted} is right. It should be True as "
+            f"soon as the cart is more than 2.4 metres away: {why}.",
         )
     for angle in (np.pi * 12 / 180, -np.pi * 12 / 180):
         observation = [0.5, 0.5, float(angle), 0.0]
@@ -494,8 +508,8 @@ def knows_both_limits(student: Student):
         (value,) = truth_values(f"fallen({observation})", got, 1)
         expect(
             not value,
-            f"fallen({observation}) returned True, but this is 12 degrees: the pole has fallen "
-            "only when it leans more than that.",
+            f"fallen({observation}) returned True, but this is 12 degrees: the pole should count "
+            "as fallen only when it leans more than that.",
         )
 
 
@@ -508,14 +522,14 @@ def gives_the_rewards_of_gymnasium(student: Student):
     got = single_numbers(student.said, got, len(rewards))
     falls = np.append(over[1:], False) & ~over
     mistakes = {
-        "In this step the pole falls, or the cart leaves. But what counts is the state in which a "
-        "step begins.": np.where(falls, 0.0, rewards),
+        "A step in which the pole falls or the cart leaves gives 0, but what should count is the "
+        "state in which a step begins.": np.where(falls, 0.0, rewards),
     }
     for observation, value, wanted in zip(observations, got, rewards, strict=True):
         if abs(value - wanted) >= 1e-6:
             raise Mismatch(
                 f"cartpole_reward({show(observation)}, ...) returned {value:g}, but Gymnasium gave "
-                f"{wanted:g} for a step that began so.",
+                f"{wanted:g} for a step that began with this observation.",
                 got, rewards, mistakes,
             )  # fmt: skip
     near = [[2.4, 0, 0, 0], [-2.4, 0, 0, 0], [2.4001, 0, 0, 0], [0, 0, -0.20955, 0], [-3, 0, 0, 0]]
@@ -525,8 +539,8 @@ def gives_the_rewards_of_gymnasium(student: Student):
         (value,) = single_numbers(said, got, 1)
         expect(
             abs(value - wanted) < 1e-6,
-            f"{said} returned {value:g}, but {wanted} was expected: the reward is 1 until the cart "
-            "is more than 2.4 metres away or the pole leans more than 12 degrees.",
+            f"{said} returned {value:g}, but {wanted} was expected: the reward should be 1 until "
+            "the cart is more than 2.4 metres away or the pole leans more than 12 degrees.",
         )
 
 
@@ -568,45 +582,46 @@ def expect_rewards(student: Student, index: int, torque) -> None:
     used = np.sqrt(np.maximum(0, -(got + angle**2 + 0.1 * speed**2)) / 0.001)
     limit = used.max()
     mistakes = {
-        "The angle is one of half of the circle, as arctan(sin / cos) or arcsin give it: see "
-        "np.arctan2.": reward_of(np.arctan(sine / cosine)),
-        "The angle counts from 0 to 2 pi, but it lies between -pi and pi.": reward_of(
+        "The angle is always between -90 and 90 degrees, as arcsin or arctan(sine / cosine) give "
+        "it, but the whole circle counts: see np.arctan2.": reward_of(
+            np.arctan(sine / cosine), given
+        ),
+        "The angle counts from 0 to 2 pi, but it should lie between -pi and pi.": reward_of(
             np.arctan2(sine, cosine) % (2 * np.pi), torque.clip(-2, 2)
         ),
-        "The torque is not cut to -2 and 2, as the motor does.": reward_of(
+        "The torque is not cut to the range from -2 to 2, but it should be.": reward_of(
             np.arctan2(sine, cosine)
         ),
-        "These torques cost nothing here, but each costs as much as the motor gives.": reward_of(
-            np.arctan2(sine, cosine), 0.0
-        ),
-        "The torque has no square"
-        f"{', or its square is cut instead of the torque' * bool(np.abs(torque).max() > 2)}.": (
+        "These torques cost nothing, but each should be cut and then cost 0.001 times its "
+        "square.": reward_of(np.arctan2(sine, cosine), 0.0),
+        "The torque is not squared"
+        f"{', or its square is cut' * bool(np.abs(torque).max() > 2)}, but it should be cut first "
+        "and then squared.": (
             reward_of(np.arctan2(sine, cosine), np.sqrt(np.abs(torque.clip(-2, 2))))
         ),
-        "The torque is cut to -1 and 1 and then doubled, but the motor gives up to 2 as it is.": (
-            reward_of(angle, 2 * torque.clip(-1, 1))
-        ),
-        "The angular speed is left out.": reward_of(
+        "The torque is cut to the range from -1 to 1 and then doubled, but it should only be cut, "
+        "to the range from -2 to 2.": (reward_of(angle, 2 * torque.clip(-1, 1))),
+        "The speed of the angle is left out, but it should count.": reward_of(
             np.arctan2(sine, cosine), torque.clip(-2, 2), 0.0
         ),
-        "The speed is that at the end of the step, but that at its beginning counts.": reward_of(
-            angle, given, faster
-        ),
+        "The speed is the one at the end of the step, but the speed at its beginning "
+        "counts.": reward_of(angle, given, faster),
         "Angle and speed are those at the end of the step, but those at its beginning count.": (
             reward_of((angle + 0.05 * faster + np.pi) % (2 * np.pi) - np.pi, given, faster)
         ),
     }
     small = np.abs(torque) < 1  # without them, a limit and a factor of the torque look alike
     if small.any() and 0.05 < limit < np.abs(torque).max() - 0.05:
-        mistakes[f"The torque is cut to -{limit:.3g} and {limit:.3g}, but the motor gives 2."] = (
-            reward_of(angle, torque.clip(-limit, limit))
-        )
+        mistakes[
+            f"The torque is cut to the range from -{limit:.3g} to {limit:.3g}, but the limits "
+            "should be -2 and 2."
+        ] = reward_of(angle, torque.clip(-limit, limit))
     if small.any():
         squares = np.stack([angle, speed, given], axis=1) ** 2
         factors = np.linalg.lstsq(squares, -got, rcond=None)[0]
         parts = zip(("angle", "speed", "torque"), factors, (1, 0.1, 0.001), strict=True)
         wrong = [
-            f"{factor:.3g} times the square of the {name} (not {right:g} times)"
+            f"{factor:.3g} times the square of the {name} (should be {right:g} times)"
             for name, factor, right in parts
             if abs(factor - right) > 1e-3 * right and (name != "torque" or given.any())
         ]
@@ -615,7 +630,7 @@ def expect_rewards(student: Student, index: int, torque) -> None:
         if abs(value - wanted) >= 1e-4 * (1 + abs(wanted)):
             raise Mismatch(
                 f"pendulum_reward({show(observation)}, {show(action)}) returned {value:.5f}, but "
-                f"Gymnasium gave {wanted:.5f} for a step that began so.",
+                f"Gymnasium gave {wanted:.5f} for a step with this observation and action.",
                 np.round(got, 4), np.round(rewards, 4), mistakes,
             )  # fmt: skip
 
@@ -691,8 +706,8 @@ def expect_no_memory(student: Student) -> None:
     for observation, one, other in zip(observations, forwards, backwards, strict=True):
         expect(
             one == other,
-            f"balance({show(observation)}) returned {one}, and {other} when it was called again "
-            "after other observations: the action must depend on the observation alone.",
+            f"balance({show(observation)}) returned {one} at first, and {other} when it was called "
+            "again: the action must depend on the observation alone, without memory or chance.",
         )
 
 
@@ -708,8 +723,8 @@ def pushes_to_where_the_pole_falls(student: Student):
     ):
         expect(
             action == side,
-            f"balance({show(observation)}) returned {action}: the pole falls to the "
-            f"{('left', 'right')[side]}, so bring the cart there, with action {side}.",
+            f"balance({show(observation)}) returned {action}, but the pole falls to the "
+            f"{('left', 'right')[side]}, so the cart should be pushed there, with action {side}.",
         )
 
 
@@ -743,7 +758,7 @@ def balances_for_half_of_the_time(student: Student):
     if mean < 100:
         raise Wrong(
             f"{said}: the pole stays up for {mean:.1f} steps on average over {EPISODES} episodes; "
-            f"100 give points, 195 full marks. {looked_at(student)}".rstrip()
+            f"at least 100 are asked for here, 195 for all points. {looked_at(student)}".rstrip()
         )
 
 
@@ -754,7 +769,7 @@ def balances(student: Student):
     if mean < 195:
         raise Wrong(
             f"{said}: the pole stays up for {mean:.1f} steps on average over {EPISODES} episodes, "
-            f"but 195 of 200 are asked for. {looked_at(student)}".rstrip()
+            f"but at least 195 of 200 are asked for. {looked_at(student)}".rstrip()
         )
 
 
@@ -781,13 +796,14 @@ def expect_column(student: Student, column: str, wanted_of) -> None:
             environment, value = expect_fields(f"{student.said}: a row", row, "environment", column)
             expect(
                 environment == name,
-                f"{student.said}: the row of {name} is about {show(environment)}.",
+                f"{student.said}: the environment of a row is {show(environment)}, but should be "
+                f"{name!r} (the rows should be in the order given).",
             )
             nan = isinstance(value, float) and np.isnan(value)
             expect(
                 column != "deviation" or episodes > 1 or not nan,
-                f"{student.said}: deviation of {name} is NaN, but it is 0 for a single episode: "
-                "there, the number of episodes minus one is 0 and divides nothing.",
+                f"{student.said}: deviation of {name} is NaN, but should be 0 for a single "
+                "episode, where the number of episodes minus one is 0.",
             )
             runs = [lived(name, seed + i, 10_000) for i in range(episodes)]
             expect_close(f"{student.said}: {column} of {name}", value, wanted_of(runs), 1e-6)

@@ -101,11 +101,11 @@ drawing = exercise.task("2.1", "The parameters")
 
 
 DEVIATIONS = {
-    0.1**0.5: "That is the root of 0.1: 0.1 is the standard deviation, not the variance.",
-    0.01: "That is 0.1 squared: 0.1 is the standard deviation itself.",
-    1.0: "The numbers are not multiplied by 0.1.",
-    150**-0.5: "That is 1 over the root of 150, but 0.1 is asked for, whatever the sizes are.",
-    130**-0.5: "That is 1 over the root of 130, but 0.1 is asked for, whatever the sizes are.",
+    0.1**0.5: "0.316 is the root of 0.1: the standard deviation should be 0.1, not the variance.",
+    0.01: "0.01 is 0.1 squared, but 0.1 should be the standard deviation itself.",
+    1.0: "These numbers should be multiplied by 0.1.",
+    150**-0.5: "1 over the root of 150 is 0.082, but 0.1 is asked for, whatever the sizes are.",
+    130**-0.5: "1 over the root of 130 is 0.088, but 0.1 is asked for, whatever the sizes are.",
 }
 """The standard deviation of a typical mistake -> what is wrong."""
 
@@ -131,9 +131,12 @@ def have_the_right_shapes(student: Student):
 def biases_are_zero(student: Student):
     network = parameters_of(student, (6, 8, 3), 2)
     for key in ("b1", "b2"):
-        expect(bool(np.all(network[key] == 0)), f"{student.said}: {key} must be all zeros.")
+        expect(bool(np.all(network[key] == 0)), f"{student.said}: {key} should be all zeros.")
     for key in ("W1", "W2"):
-        expect(bool(np.all(network[key] != 0)), f"{student.said}: {key} has weights that are 0.")
+        expect(
+            bool(np.all(network[key] != 0)),
+            f"{student.said}: {key} has weights that are 0, but each should be drawn at random.",
+        )
 
 
 @drawing.check(4)
@@ -145,12 +148,12 @@ def weights_are_gaussian(student: Student):
         centred = abs(weights.mean()) < 0.03 * weights.std()
         why = DEVIATIONS.get(next(near, 0.0), "") if centred else ""
         if abs(weights.mean() - 0.1) < 0.03 * weights.std():
-            why = "0.1 is the standard deviation, not the mean."
+            why = "0.1 should be the standard deviation, not the mean."
         if evenly_distributed(weights):
-            why = "These are evenly distributed numbers, not Gaussian ones."
+            why = "These numbers are evenly distributed (uniform), but Gaussian ones are asked for."
         farthest = np.abs(weights).max()
         if bool(np.all(weights >= 0)):
-            why = "None of them is negative."
+            why = "None of them is negative, but about half should be."
         elif (share := float(np.mean(np.abs(weights) == farthest))) > 0.005:
             why = f"{100 * share:.0f} % of them are exactly {farthest:.3g} away from 0: Gaussian "
             why += "numbers have no limits."
@@ -165,13 +168,13 @@ def weights_are_gaussian(student: Student):
         expect(
             not moment,
             f"{student.said}: the weights in {key} {moment} to the last place, which random "
-            "numbers never do: each must be drawn on its own, not changed because of the others.",
+            "numbers never do: each should be drawn on its own, and not be fitted to the others.",
         )
         beyond = float(np.mean(np.abs(weights) > 0.2))
         expect(
             0.03 < beyond < 0.06,
-            f"{student.said}: {100 * beyond:.1f} % of {key} are beyond 0.2, but of Gaussian "
-            "numbers with deviation 0.1 it is 4.6 %.",
+            f"{student.said}: {100 * beyond:.1f} % of {key} are farther than 0.2 from 0, but 4.6 % "
+            "should be, as for Gaussian numbers with standard deviation 0.1.",
         )
 
 
@@ -194,9 +197,9 @@ def drawn_again(module, *arguments):
 def every_weight_is_drawn_and_the_seed_decides(student: Student):
     one = parameters_of(student, (5, 6, 5), 4)
     weights = np.concatenate([one["W1"].ravel(), one["W2"].ravel()])
-    few = "but each must be drawn on its own."
+    few = "but each should be drawn on its own."
     if np.array_equal(weights, weights.round(4)):
-        few = "and none has more than four decimals: they must not be rounded."
+        few = "and none has more than four decimals: each should be drawn on its own, unrounded."
     expect(
         len(np.unique(weights)) == len(weights),
         f"{student.said}: some weights are equal to others, {few}",
@@ -211,8 +214,8 @@ def every_weight_is_drawn_and_the_seed_decides(student: Student):
     expect(
         len(shared) == 0,
         f"{said}: {len(shared)} of its 60 weights are also in the network of seed={seed - 1}. Two "
-        "seeds must have no weight in common, as with one generator for all that is made from the "
-        "seed.",
+        "seeds should have no weight in common: make one generator from the seed, and draw both W1 "
+        "and W2 from it.",
     )
     zero, same = (
         expect_network(said, student.call("parameters", 5, 6, 5, seed=0), 5, 6, 5) for _ in range(2)
@@ -273,19 +276,21 @@ def mistaken_outputs(network: dict, observation: np.ndarray) -> dict:
             W2.dot(np.tanh(W1.dot(observation))) + b2
         ),
         "The biases of the outputs are left out.": np.tanh(W2.dot(hidden)),
-        "The biases of the outputs are added after tanh.": np.tanh(W2.dot(hidden)) + b2,
+        "The biases of the outputs are added after tanh, but they should be added before "
+        "it.": np.tanh(W2.dot(hidden)) + b2,
         "tanh is left out at the outputs.": W2.dot(hidden) + b2,
         "tanh is left out in the hidden neurons.": np.tanh(W2.dot(W1.dot(observation) + b1) + b2),
-        "The biases are subtracted, but they are to be added.": np.tanh(
+        "The biases are subtracted, but they should be added.": np.tanh(
             W2.dot(np.tanh(W1.dot(observation) - b1)) - b2
         ),
-        "The inputs go through tanh, too, but only the sums of neurons do.": np.tanh(
+        "The inputs go through tanh, too, but only the sums of the neurons should.": np.tanh(
             W2.dot(np.tanh(W1.dot(np.tanh(observation)) + b1)) + b2
         ),
-        "The outputs are shares of 1 (softmax), but each goes through tanh.": (
+        "The outputs are shares of 1 (softmax), but each sum should go through tanh.": (
             np.exp(W2.dot(hidden) + b2) / np.exp(W2.dot(hidden) + b2).sum()
         ),
-        "A neuron's bias is added once for each of its inputs, but it counts once.": np.tanh(
+        "A neuron's bias is added once for each of its inputs, but it should be added only "
+        "once.": np.tanh(
             W2.dot(np.tanh(W1.dot(observation) + len(observation) * b1)) + len(hidden) * b2
         ),
     }
@@ -299,7 +304,7 @@ def compare_outputs(student: Student, index: int, change) -> None:
         change(network)
         observation = rng.normal(size=layers[0]).astype(np.float32)
         got = forwarded(
-            student, network, observation, "{} inputs, {} hidden, {} outputs".format(*layers)
+            student, network, observation, "layers of {}, {} and {} neurons".format(*layers)
         )
         wanted = outputs_of(network, observation)
         expect_close(student.said, got, wanted, 1e-5, mistaken_outputs(network, observation))
@@ -337,7 +342,7 @@ def arrays_stay_as_they_are(student: Student):
     expect(
         changed == [],
         f"{student.said} changed {' and '.join(map(str, changed))} of what it was given, in values "
-        "or in shape: but the next step needs the network and the observation as they were.",
+        "or in shape, but the arrays given should stay as they are.",
     )
 
 
@@ -372,9 +377,9 @@ def probe(module, ninputs, noutputs, discrete, start):
 def why_so_many(discrete: bool, wanted: Sequence[int], index: int) -> str:
     """What the task says about the number of inputs (index 0) or outputs."""
     if index == 0:
-        return f"Each of the {wanted[0]} observed numbers is an input."
-    kind = "choices of a Discrete action" if discrete else "numbers of an action in a Box"
-    return f"Each of the {wanted[1]} {kind} needs an output."
+        return f"Each observed number needs an input ({wanted[0]} in all)."
+    kind = "choice of a Discrete space" if discrete else "number of an action in a Box"
+    return f"Each {kind} needs an output ({wanted[1]} in all)."
 
 
 def expect_sizes(student: Student, discrete: bool) -> None:
@@ -389,14 +394,14 @@ def expect_sizes(student: Student, discrete: bool) -> None:
     for start in (0, 7, 5):
         wanted = rng.integers(2, 30, size=2).tolist()
         first = f", start={start}" if start else ""
-        kind = f"Discrete({wanted[1]}{first})" if discrete else f"a Box of {wanted[1]}"
-        said = f"sizes(...) for {wanted[0]} observed numbers and actions that are {kind}"
+        kind = f"Discrete({wanted[1]}{first})" if discrete else f"a Box of {wanted[1]} numbers"
+        said = f"sizes(...) for {wanted[0]} observed numbers and actions in {kind}"
         mistakes = {}
         if discrete:
             counts = {
                 "The start of the space is subtracted": wanted[1] - start,
                 "The start of the space is added": wanted[1] + start,
-                "It is the number of the last choice": wanted[1] + start - 1,
+                "This is the number of the last choice": wanted[1] + start - 1,
             }
             mistakes = {
                 f"{text}, but how many choices there are is asked for.": (wanted[0], count)
@@ -445,11 +450,17 @@ def outputs_after(module, outputs, low, high):
 
 
 OTHER_CHOICES = (
-    (lambda y: len(y) - 1 - y[::-1].argmax(), "Of equal outputs, the last one is taken."),
-    (lambda y: y.argmin(), "The least active output is taken."),
-    (lambda y: np.abs(y).argmax(), "The output farthest from 0 is taken, not the largest one."),
+    (
+        lambda y: len(y) - 1 - y[::-1].argmax(),
+        "Of equal outputs, the first one should decide, not the last.",
+    ),
+    (lambda y: y.argmin(), "The least active output is taken, but the most active one should be."),
+    (
+        lambda y: np.abs(y).argmax(),
+        "The output farthest from 0 is taken, but the largest one should be.",
+    ),
     *(
-        (rule, "The first output alone decides here, but each choice has an output of its own.")
+        (rule, "The first output alone decides here, but the largest output should decide.")
         for rule in (
             lambda y: round((y[0] + 1) / 2 * (len(y) - 1)),
             lambda y: int((y[0] + 1) / 2 * len(y)),
@@ -477,7 +488,8 @@ def expect_choices(student: Student, outputs: np.ndarray, first: int) -> None:
         wanted = first + int(each.argmax())
         expect(
             type(action) is int and action == wanted,
-            f"act({show(each)}, {space}) returned {show(action)}, but {wanted} was expected.{why}",
+            f"act({show(each)}, {space}) returned {show(action)}, but the int {wanted} was "
+            f"expected.{why}",
         )
 
 
@@ -509,22 +521,23 @@ def expect_stretched(student: Student, outputs: np.ndarray, low: np.ndarray, hig
         call = f"act({show(each)}, {space})"
         wanted = low + (each + 1) / 2 * (high - low)
         mistakes = {
-            "The outputs are handed on as they are: stretch them to the space's limits.": each,
-            "Outputs beyond the limits are cut off, but all are to be stretched.": each.clip(
+            "The outputs are handed on as they are, but should be stretched to the space's "
+            "limits.": each,
+            "Outputs beyond the limits are cut off, but all should be stretched.": each.clip(
                 low, high
             ),
-            "The outputs are multiplied by the upper limit, but the lower one counts, too.": each
-            * high,
-            "The limits of the first number are used for all.": low[0]
+            "The outputs are multiplied by the upper limit, but the lower one should count, "
+            "too.": each * high,
+            "The limits of the first number are used for all, but each has its own.": low[0]
             + (each + 1) / 2 * (high[0] - low[0]),
-            "The upper limit of the first number is used for all.": each * high[0],
-            "Outputs below 0 are cut off, but they reach from -1 to 1.": low
+            "The outputs are multiplied by the upper limit of the first number, but each should "
+            "be stretched to its own two limits.": each * high[0],
+            "Outputs below 0 are cut off, but all from -1 to 1 should be stretched.": low
             + each.clip(0, 1) * (high - low),
-            "The range goes from its middle by the upper limit, but by half of its width is asked "
-            "for.": (low + high) / 2 + each * high,
-            "The outputs are multiplied by the whole width, but they reach from -1 to 1.": (
-                (low + high) / 2 + each * (high - low)
-            ),
+            "The outputs are multiplied by the upper limit, and the middle of the range is added, "
+            "but they should be multiplied by half of its width.": (low + high) / 2 + each * high,
+            "The outputs are multiplied by the whole width of the range, but half of it is asked "
+            "for.": ((low + high) / 2 + each * (high - low)),
         }
         expect_close(call, action, wanted, 1e-5, mistakes)
 
@@ -546,7 +559,7 @@ def each_number_has_its_own_limits(student: Student):
     outputs, low, high = rng.uniform(-1, 1, size=3), [-1.0, 0.0, 2.0], [1.0, 3.0, 3.0]
     said = f"act({show(outputs)}, Box({low}, {high}))"
     expect_close(
-        f"{said}: the outputs that it was given (they must stay as they are)",
+        f"{said}: the array that it was given (it should stay as it is)",
         student.run(outputs_after, outputs, low, high, said=said), outputs,
     )  # fmt: skip
 
@@ -581,7 +594,7 @@ def replay(
         many = f"{len(actions)} actions" if fit and len(actions) > maxsteps else show(actions)
         expect(
             fit and 0 < len(actions) <= maxsteps,
-            f"{said}: actions must be a list of 1 to {maxsteps} actions, not {many}.",
+            f"{said}: actions should be a list of 1 to {maxsteps} actions, not {many}.",
         )
         shape = len(actions), *env.action_space.shape
         actions = expect_array(f"{said}: actions", actions, shape)
@@ -610,8 +623,12 @@ def followed(said, env, network, seed, actions, maxsteps, precision) -> float:
         wanted = action_of(outputs, space)
         expect(
             _draw(outputs, space) or np.allclose(action, wanted, rtol=1e-4, atol=1e-4),
-            f"{said}: action {step} is {show(action)}, but the network chooses {show(wanted)} "
-            + ("for the observation of the reset." if step == 0 else "after the actions before."),
+            f"{said}: actions[{step}] is {show(action)}, but the network chooses {show(wanted)} "
+            + (
+                "for the observation of the reset."
+                if step == 0
+                else "for the observation before it."
+            ),
         )
         fitting = int(action) if space.shape == () else action.astype(precision)
         observation, reward, terminated, truncated, _ = env.step(fitting)
@@ -619,12 +636,10 @@ def followed(said, env, network, seed, actions, maxsteps, precision) -> float:
         over = terminated or truncated
     if not over and len(actions) < maxsteps:
         _, _, *ends, _ = env.step(action_of(outputs_of(network, observation), space))
-        why = "the episode of this seed is not over then."
+        why = "the episode of this seed goes on after that."
         if any(ends):
-            why = (
-                f"one more step ends the episode of this seed, its step number {len(actions) + 1}."
-            )
-        raise Wrong(f"{said} holds {len(actions)} steps, but {why}")
+            why = f"one more step, number {len(actions) + 1}, ends the episode of this seed."
+        raise Wrong(f"{said} reports {len(actions)} action{'s' * (len(actions) > 1)}, but {why}")
     return rewards
 
 
@@ -690,12 +705,13 @@ def expect_fitness(said: str, value: object, name: str, network: dict, seeds, ma
     if abs(got - wanted) > rounding * abs(wanted) + 1e-6:
         mistakes = {
             "It is the sum of the returns, but their mean is asked for.": np.sum(returns),
-            "It is the return of the first episode: each has a seed of its own.": returns[0],
+            "It is the return of the first episode, but the mean is asked for.": returns[0],
             "It is the return of the best episode, but the mean is asked for.": max(returns),
             "It is the return of the last episode, but the mean is asked for.": returns[-1],
         }
         raise Mismatch(
-            f"{said} returned {got:.4f}, but the mean over {len(seeds)} episodes is {wanted:.4f}.",
+            f"{said} is {got:.4f}, but should be {wanted:.4f}, the mean return over {len(seeds)} "
+            f"episode{'s' * (len(seeds) > 1)}.",
             got, wanted, mistakes,
         )  # fmt: skip
 
@@ -725,12 +741,13 @@ def check_fitness(
         while uneven and whole_mean(env, network, seeds, maxsteps):
             network = drawn(rng, *layers_of(env, 6))
     limit = "" if maxsteps is None else f", maxsteps={maxsteps}"
-    which = f"seeds={seeds}" if twice else f"{episodes} seeds"
+    which = f"seeds={seeds}" if twice else f"{episodes} seed{'s' * (episodes > 1)}"
     said = f"fitness({name!r}, network, {which}{limit})"
     value, after = student.run(measured, name, network, seeds, maxsteps, said=said)
     expect(
         after == seeds,
-        f"{said} changed the list of seeds that it was given: it is {show(after)} now.",
+        f"{said} changed the list of seeds that it was given to {show(after)}, but it should stay "
+        "as it is.",
     )
     expect_fitness(said, value, name, network, seeds, 200 if maxsteps is None else maxsteps)
 
@@ -802,7 +819,7 @@ def expect_batch(student: Student, index: int, sizes: tuple, factor: float = 1) 
     for n, *layers in sizes:
         networks = {k: factor * each for k, each in drawn(rng, *layers, many=(n,)).items()}
         observations = rng.normal(size=(n, layers[0]))
-        said = f"forward_batch(...) for {n} networks of {layers} neurons"
+        said = f"forward_batch(...) for n = {n} and layers of {layers} neurons"
         got = student.run(batched, networks, observations, said=said)
         got = expect_array(said, got, (n, layers[2]))
         for i in range(n):
@@ -812,11 +829,14 @@ def expect_batch(student: Student, index: int, sizes: tuple, factor: float = 1) 
                 first = {key: stack[0] for key, stack in networks.items()}
                 mixed = {key: network[key].reshape(network[key].T.shape).T for key in ("W1", "W2")}
                 mistakes = mistaken_outputs(network, observations[i]) | {
-                    "It gets the weights of network 0.": outputs_of(first, observations[i]),
-                    "It gets W1 and W2 of network 0, with its own biases.": outputs_of(
+                    "It gets all parameters of network 0, but it has its own.": outputs_of(
+                        first, observations[i]
+                    ),
+                    "It gets W1 and W2 of network 0 with its own biases, but it has its own W1 and "
+                    "W2.": outputs_of(
                         network | {"W1": first["W1"], "W2": first["W2"]}, observations[i]
                     ),
-                    "It gets the second layer of network 0.": outputs_of(
+                    "It gets W2 and b2 of network 0, but it has its own.": outputs_of(
                         network | {"W2": first["W2"], "b2": first["b2"]}, observations[i]
                     ),
                     "The weights are reshaped. This does not exchange rows and columns, but puts "
@@ -825,20 +845,22 @@ def expect_batch(student: Student, index: int, sizes: tuple, factor: float = 1) 
                     "columns, but puts each weight into another place.": (
                         outputs_of(network | {"W1": mixed["W1"]}, observations[i])
                     ),
-                    "It gets the observation of network 0.": outputs_of(network, observations[0]),
-                    "It gets the sum of all observations, but each network has one of its own.": (
+                    "It gets the observation of network 0, but it has its own.": outputs_of(
+                        network, observations[0]
+                    ),
+                    "It gets the sum of all observations, but it has its own.": (
                         outputs_of(network, observations.sum(axis=0))
                     ),
-                    "It gets the hidden neurons of network 0, with its own second layer.": (
+                    "It gets the hidden neurons of network 0, but it has its own.": (
                         upon(network, np.tanh(first["b1"] + first["W1"].dot(observations[0])))
                     ),
-                    "It gets the first layer of network 0, with its own second one.": upon(
+                    "It gets W1 and b1 of network 0, but it has its own.": upon(
                         network, np.tanh(first["b1"] + first["W1"].dot(observations[i]))
                     ),
                 }
                 raise Mismatch(
-                    f"{said}: network {i} gives {show(got[i])}, but {show(wanted)} when it is "
-                    "alone.", got[i], wanted, mistakes,
+                    f"{said}: network {i} gives {show(got[i])}, but should give {show(wanted)}, as "
+                    "it does alone.", got[i], wanted, mistakes,
                 )  # fmt: skip
 
 
@@ -856,10 +878,11 @@ def few_and_square(student: Student):
     changed = student.run(changed_by_batch, networks, rng.normal(size=(3, 4)), said=said)
     expect(
         changed == [],
-        f"{said} changed {show(changed)} of what it was given, in values or in shape.",
+        f"{said} changed {show(changed)} of what it was given, in values or in shape, but the "
+        "arrays given should stay as they are.",
     )
     kept = student.run(kept_after_another_batch, networks, rng.normal(size=(3, 4)), said=said)
-    expect(kept is True, f"{said} changes what an earlier call has returned: make a new array.")
+    expect(kept is True, f"{said} changes what an earlier call returned: make a new array.")
 
 
 @batching.check(3)
@@ -887,8 +910,9 @@ def is_quicker_than_a_loop(student: Student):
         expect(np.allclose(got, wanted, rtol=0, atol=1e-4), f"{said}: some outputs are wrong.")
     expect(
         batch < loop / 2,
-        f"{said} took {batch:.2f} s; a Python loop over the networks takes {loop:.2f} s, and one "
-        "NumPy operation for all of them a small part of that.",
+        f"{said} took {batch:.2f} s. A Python loop that computes one network after the other takes "
+        f"{loop:.2f} s; less than half of that is asked for. Compute all networks with the same "
+        "few NumPy operations, without a loop over them: a list comprehension is one, too.",
     )
 
 
@@ -903,7 +927,7 @@ def searched(student: Student, name: str, index: int, nnetworks: int, nhiddens: 
     networks, values, best = expect_fields(student.said, report, "networks", "fitness", "best")
     expect(
         isinstance(networks, list) and len(networks) == nnetworks,
-        f"{student.said}: networks must be a list of {nnetworks} networks, not {show(networks)}.",
+        f"{student.said}: networks should be a list of {nnetworks} networks, not {show(networks)}.",
     )
     with gymnasium.make(name) as env:
         layers = layers_of(env, nhiddens)
@@ -911,8 +935,8 @@ def searched(student: Student, name: str, index: int, nnetworks: int, nhiddens: 
     weights = np.array([network["W1"].ravel()[0] for network in networks])
     expect(
         len(np.unique(weights)) == nnetworks,
-        f"{student.said}: W1[0, 0] is the same in some networks, but network i has the parameters "
-        "of seed + i.",
+        f"{student.said}: W1[0, 0] is the same in some networks, but network i should have the "
+        "parameters of seed + i.",
     )
     said = student.said
     for i in sorted({0, 1, nnetworks - 1}):
@@ -920,8 +944,8 @@ def searched(student: Student, name: str, index: int, nnetworks: int, nhiddens: 
         own = expect_network(student.said, of_its_own, *layers)
         expect(
             all(np.array_equal(networks[i][key], own[key]) for key in own),
-            f"{said}: network {i} is not the one that {student.said} returns: network i has the "
-            "parameters of seed + i, in this order.",
+            f"{said}: network {i} is not the one that {student.said} returns, but network i should "
+            "have the parameters of seed + i.",
         )
     values = expect_array(f"{said}: fitness", values, (nnetworks,))
     student.said = said
@@ -937,13 +961,15 @@ def in_other_episodes(student: Student) -> str:
     networks, values, _, seeds = searched(student, name, 91, 3, 5)
     seed = seeds[0]
     others = {
-        "seeds 0 to 9, whatever the seed is": lambda i: range(10),
-        "seeds 1 to 10, whatever the seed is": lambda i: range(1, 11),
-        "seeds seed + 1 to seed + 10": lambda i: range(seed + 1, seed + 11),
-        "seed itself, ten times": lambda i: [seed],
-        "seed of each network, ten times": lambda i: [seed + i],
-        "10 seeds from that of each network on": lambda i: range(seed + i, seed + i + 10),
-        "next 10 seeds for each network": lambda i: range(seed + 10 * i, seed + 10 * i + 10),
+        "the seeds 0 to 9, whatever the seed is": lambda i: range(10),
+        "the seeds 1 to 10, whatever the seed is": lambda i: range(1, 11),
+        "the seeds from seed + 1 to seed + 10": lambda i: range(seed + 1, seed + 11),
+        "seed alone": lambda i: [seed],
+        "seed + i alone for network i": lambda i: [seed + i],
+        "the seeds from seed + i on for network i": lambda i: range(seed + i, seed + i + 10),
+        "the seeds from seed + 10 * i on for network i": lambda i: range(
+            seed + 10 * i, seed + 10 * i + 10
+        ),
     }
     with gymnasium.make(name) as env:
         for text, seeds_of in others.items():
@@ -952,7 +978,10 @@ def in_other_episodes(student: Student) -> str:
                 np.isclose(np.mean([return_of(env, network, each, 200) for each in own]), value)
                 for network, value, own in pairs
             ):
-                return f"\n  It is the mean with the {text}."
+                return (
+                    f"\n  It is the mean return with {text}, but all networks should have the "
+                    "seeds from seed to seed + 9."
+                )
     return ""
 
 
@@ -1009,8 +1038,8 @@ def of_equals_the_lowest(student: Student):
         values = expect_array(f"{said}: fitness", values, (12,))
         expect_best(
             said, best, values,
-            f": fitness is {show(values.tolist())}, so best must be {values.argmax()}, the "
-            f"lowest of equals, but is {show(best)}.",
+            f": fitness is {show(values.tolist())}, so best should be the int {values.argmax()}, "
+            f"the lowest of equals, but is {show(best)}.",
         )  # fmt: skip
 
 
@@ -1023,7 +1052,8 @@ def finds_the_best(student: Student):
             expect_fitness(said, float(values[i]), name, networks[i], seeds, 200)
         expect_best(
             student.said, best, values,
-            f": best is {show(best)}, but network {int(values.argmax())} has the highest fitness.",
+            f": best is {show(best)}, but should be the int {int(values.argmax())}, the number of "
+            "the network with the highest fitness.",
         )  # fmt: skip
     for index in (97, 98):  # the same search with another seed has other networks
         searched(student, "CartPole-v1", index, 2, 5)

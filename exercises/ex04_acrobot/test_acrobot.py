@@ -62,7 +62,9 @@ def asked(student: Student, name: str, questions: list) -> list:
 
 def number(said: str, value: object) -> float:
     """A plain, finite number."""
-    expect(isinstance(value, (int, float)), f"{said}: one number is needed, not {show(value)}.")
+    expect(
+        isinstance(value, (int, float)), f"{said}: a single number is needed, not {show(value)}."
+    )
     return float(expect_array(said, value, ()))
 
 
@@ -100,7 +102,10 @@ def expect_near(
     wrong = np.abs(np.subtract(values, wanted))
     worst = int(wrong.argmax())
     if wrong[worst] >= 1e-4:
-        sentence = f"{said[worst]} should be {wanted[worst]:.4f}, but is {values[worst]:.4f}."
+        sentence = (
+            f"{said[worst]} should be {wanted[worst]:.4f}, but is {values[worst]:.4f} (the "
+            "observation is shown with rounded numbers)."
+        )
         raise Mismatch(sentence, np.round(values, 3), np.round(wanted, 3), mistakes)
 
 
@@ -122,26 +127,25 @@ def expect_decoded(student: Student, index: int, keys: tuple[str, str], columns:
         wanted = states[:, columns][:, position]
         mistakes = {other: np.round(states[:, columns][:, 1 - position], 3)}
         if "angle" in key:
-            turned = "The angles go from 0 to 2 pi, but from -pi to pi is asked for."
+            turned = "The angles go from 0 to 2 pi, but they should go from -pi to pi."
             mistakes |= {
                 turned: np.round(wanted % (2 * np.pi), 3),
                 "These are degrees, but radians are asked for.": np.round(np.degrees(wanted), 3),
-                "The arc cosine loses the sign.": np.round(np.abs(wanted), 3),
-                "arctan(sine / cosine) knows half of the circle only.": np.round(
-                    np.arctan(np.tan(wanted)), 3
+                "The sign is lost, as with the arc cosine, but it should be kept.": np.round(
+                    np.abs(wanted), 3
                 ),
-                "The arc sine knows half of the circle only.": np.round(
-                    np.arcsin(np.sin(wanted)), 3
-                ),
+                "These are only angles from -pi/2 to pi/2, as arctan(sine / cosine) gives them, "
+                "but they should go from -pi to pi.": np.round(np.arctan(np.tan(wanted)), 3),
+                "These are only angles from -pi/2 to pi/2, as the arc sine gives them, but they "
+                "should go from -pi to pi.": np.round(np.arcsin(np.sin(wanted)), 3),
             }
         if key == "angle2":
             both = states[:, :2].sum(axis=1)
             mistakes |= {
-                "It is counted from straight down, but it counts from the first link.": np.round(
-                    both, 3
-                ),
-                "It is counted from straight down (between -pi and pi), but it counts from the "
-                "first link.": np.round((both + np.pi) % (2 * np.pi) - np.pi, 3),
+                "This is counted from straight down, but it should be counted from the first "
+                "link.": np.round(both, 3),
+                "This is counted from straight down (between -pi and pi), but it should be counted "
+                "from the first link.": np.round((both + np.pi) % (2 * np.pi) - np.pi, 3),
             }
         values = [values[position] for values in given]
         expect_near(said, values, wanted, mistakes)
@@ -161,7 +165,7 @@ def speeds(student: Student):
 rules = exercise.task("4.2", "What Acrobot does, and what for", needs=("4.1",))
 
 
-TORQUES = "The actions 0, 1 and 2 put a torque of -1, 0 and +1 on the joint."
+TORQUES = "The actions 0, 1 and 2 should put a torque of -1, 0 and +1 on the joint."
 
 
 @rules.check(4)
@@ -182,21 +186,24 @@ def height(student: Student):
     ]
     wanted = np.array([height_of(state) for state in states])
     mistakes = {
-        "The second angle is counted from the first link, not from straight down.": np.round(
+        "The second link's part is computed from angle2 alone, but its angle with straight down is "
+        "angle1 + angle2, because angle2 is counted from the first link.": np.round(
             -np.cos(states[:, 0]) - np.cos(states[:, 1]), 3
         ),
-        "Only the first link is counted.": np.round(-np.cos(states[:, 0]), 3),
-        "It counts from the lowest point, but the height above the nail is asked for.": np.round(
-            wanted + 2, 3
-        ),
-        "The height of the second link is subtracted, but it is to be added.": np.round(
+        "This is the height of the first link's end, but the height of the free end is asked "
+        "for.": np.round(-np.cos(states[:, 0]), 3),
+        "This is the height above the lowest point, but the height above the nail is asked "
+        "for.": np.round(wanted + 2, 3),
+        "The height of the second link is subtracted, but it should be added.": np.round(
             -np.cos(states[:, 0]) + np.cos(states[:, :2].sum(axis=1)), 3
         ),
-        "The second angle is subtracted from the first, but it is to be added.": np.round(
+        "The second angle is subtracted from the first, but it should be added.": np.round(
             -np.cos(states[:, 0]) - np.cos(states[:, 0] - states[:, 1]), 3
         ),
-        "It is measured downwards: a hanging arm has -2.": np.round(-wanted, 3),
-        "Sines stand where cosines belong.": np.round(
+        "This is measured downwards, but a hanging arm should have the height -2.": np.round(
+            -wanted, 3
+        ),
+        "Sines are used here, but cosines are asked for.": np.round(
             -np.sin(states[:, 0]) - np.sin(states[:, :2].sum(axis=1)), 3
         ),
     }
@@ -211,15 +218,15 @@ def reward(student: Student):
         said = f"reward({shown(observation)})"
         expect(
             number(said, value) == wanted,
-            f"{said} returned {value:g}, but Gymnasium gives {wanted:g}: the free end is at "
-            f"{height_of(state):.2f}, the line at 1.",
+            f"{said} returned {value:g}, but Gymnasium gives {wanted:g}: the height of the "
+            f"free end is {height_of(state):.2f}, that of the line is 1.",
         )
     for side in (1.0, -1.0):
         value = student.call("reward", np.array([0, side, 0, side, 0, 0], dtype=np.float32))
         expect(
             number(student.said, value) == -1,
             f"{student.said} returned {value:g}, but the free end is exactly on the line, not "
-            "above it: -1 was expected.",
+            "above it, so the reward should be -1.",
         )
 
 
@@ -318,22 +325,23 @@ class Trial:
             fit = self.student.scratch(f"{self.folder}/S{seed}.fit").read_bytes()
             expect(
                 fit == wanted["fit"],
-                f"{self.said}: {self.folder}/S{seed}.fit is not what the tool writes for this "
-                "experiment, seed and number of steps.",
+                f"{self.said}: {self.folder}/S{seed}.fit is not what the tool writes for the "
+                "experiment, seed and number of steps of this run.",
             )
 
     def _expect_same(self, said: str, array: np.ndarray, wanted: np.ndarray) -> None:
         if array.shape != wanted.shape and array.ndim == 1 and "/stat" in said:
             short = array.size < wanted.size
             raise Wrong(
-                f"{said} holds {array.size // 6} generations, but the run that was asked for has "
-                f"{wanted.size // 6}."
-                + (" It ends too early: each run has all of the steps." if short else "")
+                f"{said} holds another number of generations ({array.size // 6}) than the run that "
+                f"was asked for ({wanted.size // 6})."
+                + (" It ends too early: each run should do all of its steps." if short else "")
             )
         expect_array(said, array, wanted.shape)
         expect(
             np.array_equal(array, wanted),
-            f"{said} is not what the tool writes for this experiment, seed and number of steps.",
+            f"{said} is not what the tool writes for the experiment, seed and number of steps of "
+            "this run.",
         )
 
 
@@ -348,7 +356,7 @@ def load_array(student: Student, name: str, said: str, missing: str) -> np.ndarr
             warnings.simplefilter("ignore")
             return np.load(path, allow_pickle=False)
     except Exception:
-        raise Wrong(f"{said}: {name} is no file of numbers.") from None
+        raise Wrong(f"{said}: {name} is not a NumPy file of numbers.") from None
 
 
 @replications.check(8)
@@ -372,17 +380,19 @@ def other_fitness(values: dict[int, object]) -> str:
     lasts = [files_of(ACROBOT, s, 40_000)[f"statS{s}.npy"].reshape(-1, 6)[-1] for s in values]
     given = [expect_array(f"the fitness of run {s}", value, ()) for s, value in values.items()]
     others = {
-        1: "the best fitness, but the best post-evaluated one is asked for",
+        1: "the best fitness",
         3: "the best fitness of the last generation",
         4: "the average fitness of the last generation",
         0: "the number of steps",
     }
     best = [files_of(ACROBOT, s, 40_000)["fitness"] for s in values]
     if np.allclose(given, np.maximum.accumulate(best), rtol=1e-5):
-        return "\n  This is the best of this run and those before it: each run has its own."
+        return (
+            "\n  This is the best of this run and those before it, but that of this run is needed."
+        )
     for column, text in others.items():
         if np.allclose(given, [last[column] for last in lasts], rtol=1e-5):
-            return f"\n  This is {text}."
+            return f"\n  This is {text}, but the best post-evaluated fitness is asked for."
     return ""
 
 
@@ -394,7 +404,7 @@ def tells_the_fitness_of_each_run(student: Student):
     low, high = sorted(secrets.randbelow(999_000) + 1 for _ in range(2))
     falling = sorted([high + 2, low], key=lambda seed: -files_of(ACROBOT, seed, 40_000)["fitness"])
     trial = Trial(student, ACROBOT, "fitness", 40_000, falling)
-    before.said, before.missing = trial.said, "of an earlier run is gone: such files must stay."
+    before.said, before.missing = trial.said, "of an earlier run is gone: such files should stay."
     before.expect_files("stat", "best", "bestg")
     trial.expect_files("stat")
     pairs = trial.answer
@@ -405,7 +415,8 @@ def tells_the_fitness_of_each_run(student: Student):
     keys = [key for key, _ in pairs]
     expect(
         all(type(key) is int for key in keys) and sorted(keys) == sorted(trial.seeds),
-        f"{trial.said} returned a dict with the keys {show(keys)}, but the seeds were expected.",
+        f"{trial.said} returned a dict with the keys {show(keys)}, but its keys should be the "
+        "seeds, as integers.",
     )
     for seed, value in pairs:
         said = f"{trial.said}: the fitness of run {seed}"
@@ -416,7 +427,7 @@ def tells_the_fitness_of_each_run(student: Student):
                 f"{said} is {got:.6g}, but {wanted:.6g} was expected.{other_fitness(dict(pairs))}"
             )
     again = Trial(student, PENDULUM, "fitness", 4_000, before.seeds)
-    again.said += ", whose seeds have files there already, which must be replaced"
+    again.said += ", whose seeds have files in the folder already (they should be replaced)"
     again.expect_files("stat")
 
 
@@ -445,10 +456,12 @@ def expect_columns(student: Student, generations: int, columns: tuple[str, ...])
     for name, values in zip(columns, expect_fields(said, stat, *columns), strict=True):
         column = COLUMNS.index(name)
         mistakes = {
-            "The numbers of a generation, not those of a column, lie one after another in the "
-            "file.": table.ravel().reshape(6, -1)[column],
-            "These are the numbers of all columns.": table.T.ravel(),
-            "These are all numbers of the file, as they stand in it.": table.ravel(),
+            "The file is read as one column after another, but it holds one generation after "
+            "another: six numbers for each.": table.ravel().reshape(6, -1)[column],
+            "These are the numbers of all columns, but those of one column are asked "
+            "for.": table.T.ravel(),
+            "These are all numbers of the file, but those of one column are asked "
+            "for.": table.ravel(),
         }
         expect_close(f"{said}: {name}", values, table[:, column], mistakes=mistakes)
 
@@ -496,8 +509,11 @@ def wanted_curves(stats: list[dict], column: str, budgets: np.ndarray):
 
 def expect_curves(student: Student, stats, column: str, budgets, key: str) -> None:
     answer = student.call("curves", stats, column, budgets)
-    order = "rising" if np.all(np.diff(budgets) >= 0) else "in any order"
-    said = f"curves(stats of {len(stats)} runs, '{column}', {len(budgets)} budgets, {order})"
+    order = "in rising order" if np.all(np.diff(budgets) >= 0) else "in any order"
+    said = (
+        f"curves(stats of {len(stats)} runs, '{column}', {len(budgets)} "
+        f"budget{'s' * (len(budgets) > 1)}, {order})"
+    )
     (values,) = expect_fields(said, answer, key)
     wanted = dict(zip(("mean", "deviation"), wanted_curves(stats, column, budgets), strict=True))
     expect_close(
@@ -527,16 +543,16 @@ def mistaken(stats: list[dict], column: str, budgets: np.ndarray, key: str) -> d
         return [values[min(i, len(values) - 1)] for i in range(len(budgets))]
 
     return {
-        "A generation counts as soon as its steps are done: also exactly at the budget.": made(
-            before
-        ),
+        "A generation whose steps equal the budget is left out, but it should count.": made(before),
         "The runs are compared at equal generations, but equal steps are asked for.": made(equal),
-        "There are no straight lines between generations: nobody knows the next one yet.": made(
+        "This interpolates between two generations, but the value of the last one that is complete "
+        "at the budget is asked for.": made(
             lambda steps, values: np.interp(budgets, steps, values)
         ),
-        "The next generation is taken, which is not yet complete at the budget.": made(following),
-        "It is the highest value up to the budget, but that of the last generation is asked "
-        "for.": made(highest),
+        "The first generation that ends at or after the budget is taken, but the last one that is "
+        "complete by then is asked for.": made(following),
+        "The highest value up to the budget is taken, but that of the last complete generation is "
+        "asked for.": made(highest),
     }
 
 
@@ -624,10 +640,15 @@ def expect_worth(student: Student, text: str, index: int, keys: tuple[str, ...])
         )
         for key, value in zip(keys, values[1:], strict=True):
             worth = worth_of(text, files, key, seed, episodes, test_seed)
-            mistakes = {"It is that of the best episode, but the mean is asked for.": worth.max()}
+            mistakes = {
+                "This is the return of the best episode, but the mean is asked for.": worth.max()
+            }
             if key == "promised":
                 first = files[f"statS{seed}.npy"][2]
-                mistakes = {"It is what the stat file says of the first generation.": first}
+                mistakes = {
+                    "This is the value of the first generation, but that of the last is asked "
+                    "for.": first
+                }
             said_of = f"{said}: {key} of seed {seed}"
             expect_close(said_of, value, worth.mean(), mistakes=mistakes)
 

@@ -174,19 +174,21 @@ shape = exercise.task("5.3", "The shape at rest", needs=("5.1", "5.2"), refused=
 
 
 AXES = {
-    (11, 2, 4): "x and y stand before the corners: each corner has its own x and y on the last "
-    "axis (axis=1 of np.stack puts the corners in the middle).",
-    (4, 11, 2): "The corners stand before the segments: each segment has its four corners (axis=1 "
-    "of np.stack puts the corners in the middle).",
-    (2, 11, 4): "x and y stand on the first axis, but belong on the last one.",
-    (2, 4, 11): "The axes are in the opposite order.",
-    (4, 2, 11): "The segments stand on the last axis, but belong on the first one.",
-    (44, 2): "The corners of all segments are in one list: each segment has a list of its own.",
-    (11, 8): "The numbers of each segment are in one row: each corner has a row of its own.",
-    (11, 5, 2): "These are five places for each segment, but it has four corners.",
-    (11, 2, 2): "These are two places for each segment, but it has four corners.",
-    (11, 2): "These are places of segments: each segment has four corners.",
-    (12, 2): "These are the places of the hinges: each segment has four corners.",
+    (11, 2, 4): "The shape should be segments, corners, and x and y last, but the corners come "
+    "last here (axis=1 of np.stack puts them in the middle).",
+    (4, 11, 2): "The shape should be segments, corners, x and y, but the corners come first here "
+    "(axis=1 of np.stack puts them in the middle).",
+    (2, 11, 4): "x and y stand on the first axis, but they should stand on the last one.",
+    (2, 4, 11): "The axes are in the opposite order: they should be segments, corners, x and y.",
+    (4, 2, 11): "The segments stand on the last axis, but they should stand on the first one.",
+    (44, 2): "All 44 corners are in one list, but the four of each segment should be in a list of "
+    "their own.",
+    (11, 8): "The eight numbers of each segment are in one row, but each corner should have a row "
+    "of its own.",
+    (11, 5, 2): "These are five places for each segment, but its four corners are asked for.",
+    (11, 2, 2): "These are two places for each segment, but its four corners are asked for.",
+    (11, 2): "This is one place for each segment, but its four corners are asked for.",
+    (12, 2): "These are 12 places, but the four corners of each of the 11 segments are asked for.",
 }
 """What is wrong with some shapes of an outline."""
 
@@ -202,7 +204,10 @@ def expect_outline(student: Student, questions: np.ndarray) -> None:
         if shape in AXES:
             arranged = AXES[shape]
             if shape == (11, 5, 2) and np.allclose(answer[:, 0], answer[:, -1]):
-                arranged = "The first corner is there twice: a segment has four corners."
+                arranged = (
+                    "The first corner of each segment is there twice, but each of its four "
+                    "corners should be there once."
+                )
             expect_close(said, answer, corners(p), mistakes={arranged: answer})
             continue
         answer = expect_array(said, answer, (11, 4, 2))
@@ -362,7 +367,7 @@ class Trial:
         self.walkers, saved, after, self.places = student.run(
             try_runs, text, seeds, "some/runs", steps, said=self.said
         )
-        expect(after == seeds, f"{self.said} changed the list of seeds: it is {after} now.")
+        expect(after == seeds, f"{self.said} changed the list of seeds, which is {after} now.")
         self.saved = [saved.get(str(seed)) for seed in seeds]
         self.wanted = np.array([own_run(text, seed, steps)[0] for seed in seeds])
         self.seeds, self.steps = seeds, steps
@@ -372,27 +377,27 @@ class Trial:
         shape = np.shape(self.walkers) if isinstance(self.walkers, np.ndarray) else ()
         whole = self.wanted.shape[1]
         columns = {
-            64: "This is the body alone",
-            whole - 70: "The 70 means and deviations at the end are missing",
-            whole - 134: "This is the network alone",
-            6: "These are the columns of a stat file",
+            64: "Such rows are as long as a body alone",
+            whole - 70: "Such rows are too short by 70, the number of means and deviations",
+            whole - 134: "Such rows are as long as the network alone",
+            6: "Such rows have as many numbers as those of a stat file",
         }
         what = columns.get(shape[-1] if len(shape) == 2 else -1)
         if len(shape) == 1 and shape[0] in (2, 2 * whole, whole):
             what = {
-                2: "This is one number for each run",
-                whole: "This is one genotype only",
-            }.get(shape[0], "The genotypes stand one after another in one row")
+                2: "These are two numbers",
+                whole: "This is as long as one genotype",
+            }.get(shape[0], "This is as long as all genotypes one after another")
         expect(
             not what,
-            f"{self.said} returned an array of shape {shape}, not {self.wanted.shape}.\n  {what}: "
-            "the whole genotype of each run in a row of its own is asked for.",
+            f"{self.said} returned an array of shape {shape}, but {self.wanted.shape} was "
+            f"expected.\n  {what}. The whole genotype of each run in a row of its own is needed.",
         )
         expect(
             len(shape) != 2 or shape[0] <= len(self.seeds),
             f"{self.said} returned {shape[0] if shape else 0} rows for {len(self.seeds)} seeds: "
-            "one row for each seed that is given, whatever else is in the folder or was run "
-            "before.",
+            "there should be one row for each seed that is given, whatever else is in the folder "
+            "or was run before.",
         )
         right = self.walkers is not None and np.array_equal(self.walkers, self.wanted)
         expect_close(self.said, self.walkers, self.wanted, mistakes={} if right else self.made())
@@ -405,16 +410,15 @@ class Trial:
 
         seeds, steps = self.seeds, self.steps
         each_ran = all(self.places.get(str(seed)) for seed in seeds)
-        rows = "All rows hold the genotype of the {} run: keep each one in its own row."
-        begun = "Each run begins with the seed of the {} one."
+        rows = "All rows hold the genotype of the {} run, but each should be in its own row."
+        begun = "All rows belong to the {} seed, but each seed should have its own run."
         first, last = ((rows if each_ran else begun).format(which) for which in ("first", "last"))
         return {
-            "These genotypes have the best fitness, not the best post-evaluated fitness.": runs(
-                seeds, steps, 1
-            ),
+            "These genotypes have the best fitness, but those with the best post-evaluated fitness "
+            "are asked for (bestg).": runs(seeds, steps, 1),
             "The walkers are in another order than the seeds.": self.wanted[::-1],
-            "These runs have the length of the file, not `steps`: they end too late, or their "
-            "files were there before.": runs(seeds, None),
+            "These runs are as long as the experiment file says instead of `steps`: they end too "
+            "late, or come from files that were there before.": runs(seeds, None),
             "The seeds that are given are not used: these runs have the seeds 0 and 1.": runs(
                 [0, 1], steps
             ),
@@ -423,29 +427,32 @@ class Trial:
             ),
             **(
                 {
-                    "The steps are shared among the runs: each has all of them.": runs(
+                    "The steps are shared among the runs, but each should have all of them.": runs(
                         seeds, steps // len(seeds)
                     )
                 }
                 if steps
                 else {}
             ),
-            "The seed 0 is a seed like any other: another one is used in its place.": runs(
+            "The seed 1 is used in place of 0, but 0 is a seed like any other.": runs(
                 [seed or 1 for seed in seeds], steps
             ),
             first: runs([seeds[0]] * 2, steps),
             last: runs([seeds[1]] * 2, steps),
-            "The place in the list is added to each seed.": runs([seeds[0], seeds[1] + 1], steps),
-            "One is added to each seed.": runs([seed + 1 for seed in seeds], steps),
-            "The seeds count on from the first one: take each from the list.": runs(
+            "The place in the list is added to each seed, but the seeds should be used as they "
+            "are.": runs([seeds[0], seeds[1] + 1], steps),
+            "One is added to each seed, but the seeds should be used as they are.": runs(
+                [seed + 1 for seed in seeds], steps
+            ),
+            "The seeds count on from the first one, but each should come from the list.": runs(
                 [seeds[0], seeds[0] + 1], steps
             ),
-            "The genotypes of all runs are averaged.": np.repeat(
+            "The genotypes of all runs are averaged, but each should be in its own row.": np.repeat(
                 self.wanted.mean(axis=0)[None], 2, axis=0
             ),
-            "The first row is right, the others are 0: only one run is kept.": self.wanted
+            "Only the first row is filled, but the genotype of each run is asked for.": self.wanted
             * [[1.0], [0.0]],
-            "Only the last row is filled: keep the genotype of each run.": self.wanted
+            "Only the last row is filled, but the genotype of each run is asked for.": self.wanted
             * [[0.0], [1.0]],
         }
 
@@ -510,9 +517,9 @@ def operate(module, brain, body):
 
 
 PARTS = {
-    "parameters of the network": slice(0, -134),
-    "parameters of the body": slice(-134, -70),
-    "means and deviations": slice(-70, None),
+    "the part with the parameters of the network": slice(0, -134),
+    "the part with the parameters of the body": slice(-134, -70),
+    "the part with the means and deviations": slice(-70, None),
 }
 
 
@@ -590,7 +597,7 @@ def expect_matrix(
 
     def why(i: int, j: int) -> str:
         each = returns[i, j].round(3).tolist()
-        known = f"Brain {i} in body {j} has these returns: {each}. [{i}, {j}] is their mean."
+        known = f"Brain {i} in body {j} has these returns: {each}. [{i}, {j}] should be their mean."
         if any(np.allclose(matrix, other, 1e-4) for other in made().values()):
             return known  # a mistake explains the whole matrix
         return known + other_seed(np.asarray(matrix)[i, j], text, walkers, seed, episodes, i, j)

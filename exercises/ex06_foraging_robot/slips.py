@@ -82,14 +82,16 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
         return np.tanh(bias + readout @ new[1]), new
 
     more = {
-        "The units are computed one after another, and each one sees the new outputs of those "
-        "before it: all see the outputs of the step before.": unit_by_unit(1),
-        "The forget gate is used for the candidate and the input gate for the old cells.":
+        "The units are computed one after another, each with the new outputs of those before it, "
+        "but all of them should see the outputs of the step before.": unit_by_unit(1),
+        "The candidate is multiplied by the forget gate and the old cells by the input gate, but "
+        "it should be the other way round.":
         made(taken * memory[0] + kept * np.tanh(net[3])),
-        "The new cells are kept after tanh: tanh belongs to the outputs alone.":
+        "The new memory holds tanh of the new cells, but the new cells themselves are asked for.":
         made(np.tanh(cells), outputs),
-        "The new cells are put through tanh, and once more for the outputs.": made(np.tanh(cells)),
-        "The input gate is multiplied inside the candidate's tanh, but belongs outside.":
+        "The new cells are put through tanh, and once more for the outputs, but tanh belongs to "
+        "the outputs alone.": made(np.tanh(cells)),
+        "The input gate is a factor inside the candidate's tanh, but should be a factor outside.":
         made(kept * memory[0] + np.tanh(taken * net[3])),
         "The forget gate is multiplied by tanh of the old cells, not by the cells themselves.":
         made(kept * np.tanh(memory[0]) + taken * np.tanh(net[3])),
@@ -99,94 +101,110 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
         "The input gate is applied twice.": made(kept * memory[0] + taken**2 * np.tanh(net[3])),
         "The forget gate is applied twice.": made(kept**2 * memory[0] + taken * np.tanh(net[3])),
         "The output gate is applied twice.": made(cells, shown**2 * np.tanh(cells)),
-        "The readout is reshaped, which mixes its weights up: it has a row for each wheel.": (
+        "The readout is reshaped to (10, 2), which mixes up its weights, but it has a row for each "
+        "wheel.": (
             np.tanh(readout.reshape(UNITS, 2).T @ outputs + bias), right[1]),
-        "The old cells are not added: only the new candidate is there.": made(
+        "The old cells are left out of the new cells, which are only candidate * input.": made(
             taken * np.tanh(net[3])),
-        "Old cells and candidate are averaged, but belong together as a sum.": made(cells / 2),
-        "Old cells and candidate are multiplied, but belong together as a sum.":
+        "The new cells are the mean of old cells * forget and candidate * input, but their sum is "
+        "asked for.": made(cells / 2),
+        "The new cells are the product of old cells * forget and candidate * input, but their sum "
+        "is asked for.":
         made(kept * memory[0] * taken * np.tanh(net[3])),
-        "The forget gate is added to the old cells, but is a factor of them.":
+        "The forget gate is added to the old cells, but they should be multiplied by it.":
         made(kept + memory[0] + taken * np.tanh(net[3])),
-        "The input gate is added to the candidate, but is a factor of it.":
+        "The input gate is added to the candidate, which should be multiplied by it.":
         made(kept * memory[0] + taken + np.tanh(net[3])),
-        "The output gate is added to tanh(new cells), but is a factor of it.":
+        "The output gate is added to tanh(new cells), which should be multiplied by it.":
         made(cells, shown + np.tanh(cells)),
-        "The forget gate is used for the output gate, too.": made(cells, kept * np.tanh(cells)),
-        "The input gate is used for the output gate, too.": made(cells, taken * np.tanh(cells)),
-        "The output gate is used for the input gate, too.":
+        "The forget gate is used where the output gate is asked for.":
+        made(cells, kept * np.tanh(cells)),
+        "The input gate is used where the output gate is asked for.":
+        made(cells, taken * np.tanh(cells)),
+        "The output gate is used where the input gate is asked for.":
         made(kept * memory[0] + shown * np.tanh(net[3])),
-        "The output gate is used for the forget gate, too.":
+        "The output gate is used where the forget gate is asked for.":
         made(shown * memory[0] + taken * np.tanh(net[3])),
-        "1 minus the output gate of the old outputs is added to the new ones: only the new ones "
-        "belong there.":
+        "The old outputs, times 1 minus the output gate, are added to the new outputs, but nothing "
+        "should be added to them.":
         made(cells, shown * np.tanh(cells) + (1 - shown) * memory[1]),
-        "The logistic function stands around the whole output.":
+        "The logistic function is applied to the output gate's net input times tanh(new cells), "
+        "but belongs to the net input alone.":
         made(cells, squash(net[2] * np.tanh(cells))),
-        "The gates are not put through the logistic function.":
+        "The three gates are not put through the logistic function.":
         made((net[0] + 1) * memory[0] + net[1] * np.tanh(net[3]),
              net[2] * np.tanh((net[0] + 1) * memory[0] + net[1] * np.tanh(net[3]))),
         "The forget gate is not put through the logistic function.":
         made((net[0] + 1) * memory[0] + taken * np.tanh(net[3])),
-        "The forget gate is 1 minus what it should be, as with a wrong sign in its formula.":
+        "The forget gate is 1 minus what it should be.":
         made(squash(-net[0] - 1) * memory[0] + taken * np.tanh(net[3])),
-        "The input gate is 1 minus what it should be, as with a wrong sign in its formula.":
+        "The input gate is 1 minus what it should be.":
         made(kept * memory[0] + squash(-net[1]) * np.tanh(net[3])),
-        "The output gate is 1 minus what it should be, as with a wrong sign in its formula.":
+        "The output gate is 1 minus what it should be.":
         made(cells, squash(-net[2]) * np.tanh(cells)),
         "The input gate is not put through the logistic function.":
         made(kept * memory[0] + net[1] * np.tanh(net[3])),
         "The output gate is not put through the logistic function.":
         made(cells, net[2] * np.tanh(cells)),
-        "The forget gate goes through tanh, but belongs to the logistic function.":
+        "The forget gate goes through tanh instead of the logistic function.":
         made(np.tanh(net[0] + 1) * memory[0] + taken * np.tanh(net[3])),
-        "The input gate goes through tanh, but belongs to the logistic function.":
+        "The input gate goes through tanh instead of the logistic function.":
         made(kept * memory[0] + np.tanh(net[1]) * np.tanh(net[3])),
-        "The output gate goes through tanh, but belongs to the logistic function.":
+        "The output gate goes through tanh instead of the logistic function.":
         made(cells, np.tanh(net[2]) * np.tanh(cells)),
-        "The 1 is added before the logistic function to the candidate's tanh.":
+        "1 is added to tanh of the candidate, too, but belongs to the forget gate's net input "
+        "alone.":
         made(kept * memory[0] + taken * (1 + np.tanh(net[3]))),
-        "The cells are cut off at -1 and 1.": made(cells.clip(-1, 1)),
-        "The old outputs are added to the new cells.": made(cells + memory[1]),
-        "The outputs of the step before are put through tanh before the gates see them.": of(
+        "The new cells are cut off at -1 and 1, but they should have no limits.":
+        made(cells.clip(-1, 1)),
+        "The old outputs are added to the new cells, but do not belong there.":
+        made(cells + memory[1]),
+        "The outputs of the step before are put through tanh, but z should hold them as they are.":
+        of(
             known=np.append(observation, np.tanh(memory[1]))),
-        "The tanh of the cells stands in z instead of the outputs.": of(
+        "z holds tanh of the old cells instead of the outputs of the step before.": of(
             known=np.append(observation, np.tanh(memory[0]))),
-        "The observation is put through tanh first.": of(
+        "The observation is put through tanh, but z should hold it as it is.": of(
             known=np.append(np.tanh(observation), memory[1])),
-        "The new outputs stay those of the step before.": made(cells, memory[1]),
-        "The new cells stay those of the step before.": (
+        "The new outputs are those of the step before, unchanged.": made(cells, memory[1]),
+        "The new memory holds the cells of the step before instead of the new ones.": (
             right[0], np.array([memory[0], outputs])),
-        "The new memory is the old one.": (right[0], memory),
-        "Both rows of the new memory are the cells.": (right[0], np.array([cells, cells])),
-        "Both rows of the new memory are the outputs.": (right[0], np.array([outputs, outputs])),
+        "The memory that was given is returned instead of the new one.": (right[0], memory),
+        "Both rows of the new memory hold the cells, but the second should hold the outputs.":
+        (right[0], np.array([cells, cells])),
+        "Both rows of the new memory hold the outputs, but the first should hold the cells.":
+        (right[0], np.array([outputs, outputs])),
         "The second row of the new memory is tanh(cells), without the output gate.": (
             right[0], np.array([cells, np.tanh(cells)])),
-        "The gates of the observation see it in the opposite order.": noticed(
+        "The gates see the observation in the opposite order.": noticed(
             np.concatenate([gates[..., 7::-1], gates[..., 8:]], axis=2)),
-        "The bias is added once for each unit: it is added once for each wheel.": (
+        "The bias is added once for each unit, but should be added only once for each wheel.": (
             np.tanh(readout @ outputs + UNITS * bias), right[1]),
-        "The bias is a factor, but belongs added.": (np.tanh((readout @ outputs) * bias), right[1]),
+        "The bias is a factor, but should be added.":
+        (np.tanh((readout @ outputs) * bias), right[1]),
         "The bias of the first wheel is used for both.": (
             np.tanh(readout @ outputs + bias[0]), right[1]),
         "The two biases are exchanged.": (np.tanh(readout @ outputs + bias[::-1]), right[1]),
-        "The action lies between -1 and 1: it is 0 to 1 here.": (
+        "The action is brought to the range from 0 to 1, but should be tanh(...), from -1 to 1.": (
             (np.tanh(readout @ outputs + bias) + 1) / 2, right[1]),
-        "The sum over the units is divided by their number before the bias is added: no division "
-        "is asked for.": (
+        "The sum over the units is divided by their number before the bias is added, but no "
+        "division is asked for.": (
             np.tanh(readout @ outputs / UNITS + bias), right[1]),
-        "The action is read from tanh(outputs): the outputs themselves are asked for.": (
+        "The action is read from tanh(outputs), but should be read from the outputs themselves.": (
             np.tanh(readout @ np.tanh(outputs) + bias), right[1]),
         "The action goes through tanh twice.": (np.tanh(right[0]), right[1]),
-        "The action has lost its sign.": (np.abs(right[0]), right[1]),
-        "The action has the wrong sign.": (-right[0], right[1]),
+        "The absolute value of the action is returned, but the action should keep its sign.":
+        (np.abs(right[0]), right[1]),
+        "The action has the opposite sign.": (-right[0], right[1]),
     }  # fmt: skip
     return more | {
-        "The 1 that is added for the forget gate is left out.": of(ones=(0, 0, 0, 0)),
+        "The 1 that should be added to the forget gate's net input is left out.":
+        of(ones=(0, 0, 0, 0)),
         "1 is subtracted from the forget gate's net input instead of added.": of(
             ones=(-1, 0, 0, 0)
         ),
-        "The 1 is added to all gates, but belongs to the forget gate alone.": of(
+        "The 1 is added to the forget, the input and the output gate, but belongs to the forget "
+        "gate alone.": of(
             ones=(1, 1, 1, 0)
         ),
         "The 1 is added to the input gate, but belongs to the forget gate.": of(ones=(0, 1, 0, 0)),
@@ -197,8 +215,9 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
             forget=lambda net: squash(net - 1) + 1
         ),
         **{
-            "The gates are taken in another order than forget, input, output, candidate: as "
-            f"{', '.join(GATES[order.index(k)] for k in range(4))}.": of(order=order)
+            "The gates are taken in the order "
+            f"{', '.join(GATES[order.index(k)] for k in range(4))}, but should be taken as forget, "
+            "input, output, candidate.": of(order=order)
             for order in permutations(range(4)) if order != (0, 1, 2, 3)
         },
         "The candidate goes through the logistic function instead of tanh.": of(
@@ -206,18 +225,21 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
         ),
         "tanh of the candidate is left out.": of(candidate=lambda x: x),
         "The new cells go to the outputs without tanh.": of(shown=lambda x: x),
-        "The outputs show the cells of the step before: the new ones are asked for.": of(
+        "The new outputs are computed from the old cells, but should come from the new ones.":
+        of(
             shown=lambda _: np.tanh(memory[0])
         ),
-        "The three gates go through tanh, but the logistic function is asked for.":
+        "The three gates go through tanh instead of the logistic function.":
         of(gate=np.tanh),
-        "The input gate is 1 minus the forget gate here, not a gate of its own.": of(
+        "The input gate is 1 minus the forget gate, but should have weights of its own.":
+        of(
             enter=lambda kept: 1 - kept
         ),
-        "The forget gate is not applied: the old cells are kept whole.": of(
+        "The forget gate is not applied, so that the old cells are kept whole.": of(
             forget=lambda _: 1.0
         ),
-        "The old cells are forgotten whole: the forget gate decides how much of them stays.": of(
+        "The old cells are forgotten wholly, but the forget gate should decide how much of them "
+        "stays.": of(
             forget=lambda _: 0.0
         ),
         "The input gate is not applied to the candidate.": of(enter=lambda _: 1.0),
@@ -227,61 +249,69 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
         ),
         "The outputs of the step before stand in front of the observation, but belong behind "
         "it.": of(known=np.append(memory[1], observation)),
-        "The outputs of the step before are left out: 0 stands in their place.": of(
+        "z holds 0 instead of the outputs of the step before.": of(
             known=np.append(observation, np.zeros(UNITS))
         ),
-        "The 1 is added to all four, but belongs to the forget gate alone.": of(ones=(1, 1, 1, 1)),
+        "The 1 is added to all four gates, but belongs to the forget gate alone.":
+        of(ones=(1, 1, 1, 1)),
         "The 1 is added to the candidate, but belongs to the forget gate.": of(ones=(0, 0, 0, 1)),
-        "The output gate is multiplied inside the tanh of the new cells, but belongs outside.":
+        "The output gate is a factor inside the tanh of the new cells, but should be a factor "
+        "outside.":
         of(outside=False),
-        "The new cells go through the logistic function, but tanh is asked for.": of(shown=squash),
+        "The new cells go to the outputs through the logistic function instead of tanh.":
+        of(shown=squash),
         "The forget gate is multiplied by the old outputs, not by the old cells.":
         of(old=memory[1]),
         "The old cells are multiplied by 1 minus the forget gate, not by the gate itself.": of(
             forget=lambda net: 1 - squash(net)
         ),
-        "Each gate is 1 minus what it should be, as with a wrong sign in its formula.": of(
+        "Each of the three gates is 1 minus what it should be.": of(
             gate=lambda net: squash(-net)
         ),
-        "The new candidate is subtracted from the old cells, but belongs added.": of(
+        "The new candidate is subtracted from the old cells, but should be added.": of(
             candidate=lambda x: -np.tanh(x)
         ),
-        "The forget gate is also a factor of what is added: it belongs to the old cells alone.": of(
+        "The forget gate is a factor of the candidate, too, but should be a factor of the old "
+        "cells alone.": of(
             enter=lambda kept: kept * squash(net[1])
         ),
-        "The forget gate is used for the input gate, too.": of(enter=lambda kept: kept),
-        "The gates see the outputs of the step before alone: the observation is left out.": of(
+        "The forget gate is used where the input gate is asked for.": of(enter=lambda kept: kept),
+        "z holds 0 instead of the observation.": of(
             known=np.append(0 * observation, memory[1])
         ),
-        "The bias of the wheels is added after tanh, but belongs inside it.": (
+        "The bias of the wheels is added after tanh, but should be added inside it.": (
             np.tanh(readout @ outputs) + bias, right[1]
         ),
-        "The bias of the wheels is subtracted.": (np.tanh(readout @ outputs - bias), right[1]),
-        "The action is read from tanh(new cells): the output gate is left out.": (
+        "The bias of the wheels is subtracted, but should be added.":
+        (np.tanh(readout @ outputs - bias), right[1]),
+        "The action is read from tanh(new cells), without the output gate.": (
             np.tanh(bias + readout @ np.tanh(cells)), right[1]
         ),
         "The action is read from the cells of the step before.": (
             np.tanh(bias + readout @ memory[0]), right[1]
         ),
-        "Cells and outputs are exchanged in the old and the new memory: memory[0] is to hold the "
-        "cells.": (
+        "Cells and outputs are exchanged in the old and the new memory, but memory[0] should hold "
+        "the cells.": (
             swapped[0], swapped[1][::-1]
         ),
-        "The old cells are taken for the outputs and the old outputs for the cells.": swapped,
-        "The old cells keep 1 minus the input gate: the forget gate decides that.": of(
+        "The rows of the old memory are exchanged, but memory[0] should be the cells and memory[1] "
+        "the outputs.": swapped,
+        "The old cells are multiplied by 1 minus the input gate, not by the forget gate.": of(
             forget=lambda _: 1 - squash(net[1])
         ),
-        "The 1 is added to each number of z: it is added once, to the product.": of(
+        "The 1 is added to each number of z for the forget gate, but should be added once, to the "
+        "product.": of(
             ones=np.stack([gates[0].sum(axis=1), *np.zeros((3, UNITS))])
         ),
-        "The 1 is added to each number of z, for all gates, but belongs to the forget gate.": of(
+        "The 1 is added to each number of z for all gates, but should be added once, to the forget "
+        "gate's product.": of(
             known=z + 1, ones=(0, 0, 0, 0)
         ),
-        "The output gate sees tanh of the new cells: all gates see the same z.": of(
+        "The output gate sees tanh of the new cells, but all gates should see the same z.": of(
             leave=squash(gates[2] @ np.append(observation, np.tanh(cells)))
         ),
         "The two wheels are exchanged.": (right[0][::-1], right[1]),
-        "The rows of the new memory are exchanged: the outputs stand before the cells.": (
+        "The rows of the new memory are exchanged, with the outputs before the cells.": (
             right[0], np.array([outputs, cells])
         ),
         "The action is cut off at -1 and 1 instead of put through tanh.": (
@@ -314,12 +344,18 @@ def inside(brain: dict, observation: np.ndarray, memory: np.ndarray, name: str, 
     cells = answer_of(brain, observation, memory)[1][0]
     if name == "cells":
         return (
-            f"Unit {unit}: old cell {old[unit]:.4g} * forget {squash(forget + 1):.4g} + candidate "
-            f"{np.tanh(candidate):.4g} * input {squash(enter):.4g}."
+            f"Cell {unit} should be old cell {old[unit]:.4g} * forget {squash(forget + 1):.4g} + "
+            f"candidate {np.tanh(candidate):.4g} * input {squash(enter):.4g}."
         )
     if name == "outputs":
-        return f"Unit {unit}: tanh(new cell {cells[unit]:.4g}) * output {squash(leave):.4g}."
-    return f"Wheel {unit}: tanh(row {unit} of readout times the new outputs, plus bias[{unit}])."
+        return (
+            f"Output {unit} should be tanh(new cell {cells[unit]:.4g}) * output gate "
+            f"{squash(leave):.4g}."
+        )
+    return (
+        f"Action {unit} should be tanh(row {unit} of readout times the new outputs, plus "
+        f"bias[{unit}])."
+    )
 
 
 def grid_of(places: int, headings: int) -> np.ndarray:
@@ -346,81 +382,91 @@ def wrong_grids(places: int, headings: int, column: int) -> dict:
     names = ("y", "x", "the heading")
     xy = ("x", "y", "x or y")[column]
     return {
-        "The table of meshgrid is reshaped to rows of three: this mixes x, y and heading.":
+        "The x, y and headings of all starts are reshaped to rows of three, which mixes them up.":
         np.array(table).reshape(-1, 3)[:, column],
     } | slips(
         made,
         order={"": (0, 1, 2)} | ({
-            f"{names[a]} changes slowest here, then {names[b]}, and {names[c]} fastest.": (a, b, c)
+            f"This column is that of a grid in which {names[a]} changes slowest, then {names[b]}, "
+            f"and {names[c]} fastest, but y should be slowest and the heading fastest.": (a, b, c)
             for a, b, c in permutations(range(3)) if (a, b, c) != (0, 1, 2)
         } if headings > 1 else {
-            "y changes faster than x here, or both change together.": (1, 0, 2)
+            "In your grid y changes faster than x, or both change together, but x should change "
+            "faster than y.": (1, 0, 2)
         }),
         rows={
             "": [0, 1, 2],
-            "x and y are exchanged: a row holds x, y, heading.": [1, 0, 2],
-            "The heading stands first in a row: it holds x, y, heading.": [2, 0, 1],
+            "x and y are exchanged, but a row should hold x, y, heading.": [1, 0, 2],
+            "The heading stands first in a row, but a row should hold x, y, heading.": [2, 0, 1],
         },
         spread={
             "": np.linspace,
-            "The upper ends of x and y are missing.": partial(np.linspace, endpoint=False),
-            "x and y are the middles of equal parts: both ends belong to the grid.":
+            "The upper end of the range is missing.": partial(np.linspace, endpoint=False),
+            "The values are the middles of equal parts of the range, but both ends should belong "
+            "to the grid.":
             lambda a, b, n: a + (b - a) * (np.arange(n) + 0.5) / n,
-            "x and y are cut to whole numbers.": lambda a, b, n: np.linspace(a, b, n).astype(int),
+            "The values are cut to whole numbers, but should keep their fractions.":
+            lambda a, b, n: np.linspace(a, b, n).astype(int),
             ("x has the range of y.", "y has the range of x.", "")[column]: lambda a, b, n:
             np.linspace(*((150, 250) if a == 270 else (270, 350)), n),
-            f"{xy} falls from its upper end to its lower one, but is to rise.":
+            f"{xy} falls from its upper end to its lower one, but should rise.":
             lambda a, b, n: np.linspace(b, a, n),
-            f"{xy} is left at its lower end.": lambda a, b, n: np.full(n, float(a)),
-            f"{xy} is left at its upper end.": lambda a, b, n: np.full(n, float(b)),
+            f"{xy} is the lower end of its range everywhere.": lambda a, b, n: np.full(n, float(a)),
+            f"{xy} is the upper end of its range everywhere.": lambda a, b, n: np.full(n, float(b)),
             f"The lower end of {xy} is missing.": lambda a, b, n: np.linspace(a, b, n + 1)[1:],
             f"Both ends of {xy} are missing.": lambda a, b, n: np.linspace(a, b, n + 2)[1:-1],
             f"{xy} is counted from 0, not from its lower end.":
             lambda a, b, n: np.linspace(0, b - a, n),
             f"{xy} begins at 0, not at its lower end.":
             lambda a, b, n: np.linspace(0, b, n),
-            f"The steps of {xy} are as long as its range divided by `places` + 1.":
+            f"The steps of {xy} are its range divided by `places` + 1, not by `places` - 1.":
             lambda a, b, n: a + np.arange(n) * (b - a) / (n + 1),
-            f"The steps of {xy} are whole millimetres: {xy} holds fractions.":
+            f"The steps of {xy} are cut to whole millimetres, but {xy} should hold fractions.":
             lambda a, b, n: a + np.arange(n) * ((b - a) // max(n - 1, 1)),
-            f"The steps of {xy} are rounded: {xy} holds fractions.":
+            f"The values of {xy} are rounded, but {xy} should hold fractions.":
             lambda a, b, n: np.linspace(a, b, n).round(),
-            f"{xy} has the steps of the other one of x and y.": lambda a, b, n:
+            f"The steps of {xy} are as long as those of the other one of x and y.": lambda a, b, n:
             a + np.linspace(0, 100 if a == 270 else 80, n),
         },
         angles={
             "": 2 * np.pi * turn,
-            "The headings 0 and 2 pi are the same: leave out 2 pi.":
+            "The headings go from 0 to 2 pi with both included, but 2 pi is 0 again and should be "
+            "left out.":
             np.linspace(0, 2 * np.pi, headings),
-            "The headings are in degrees.": 360 * turn,
+            "The headings are in degrees, not in radians.": 360 * turn,
             "The headings divide half a turn, not the whole one.": np.pi * turn,
-            "The fraction of the step between headings is cut off, as `//` does.":
+            "The fraction of the step between headings is cut off.":
             np.arange(headings) * (2 * np.pi // headings),
             "The headings begin at minus pi, not at 0.": 2 * np.pi * turn - np.pi,
-            "The headings turn clockwise.": -2 * np.pi * turn,
-            "The headings are counted in whole turns.": turn,
+            "The headings turn clockwise, but should grow from 0.": -2 * np.pi * turn,
+            "The headings are in whole turns, not in radians.": turn,
             "The headings divide the turn into one part too many.":
             2 * np.pi * np.arange(headings) / (headings + 1),
-            "The headings begin half a part after 0, but 0 belongs to them.":
+            "The headings begin half a part after 0, but should begin at 0.":
             2 * np.pi * (turn + 0.5 / headings),
-            "The headings fall from 2 pi, but are to begin at 0 and grow.": 2 * np.pi * (1 - turn),
-            "The headings stand in the opposite order.": 2 * np.pi * turn[::-1],
-            "The headings lie between -pi and pi here, but are to grow from 0.":
+            "The headings fall from 2 pi, but should begin at 0 and grow.": 2 * np.pi * (1 - turn),
+            "The headings stand in the opposite order, but should begin at 0 and grow.":
+            2 * np.pi * turn[::-1],
+            "The headings lie between -pi and pi, but should grow from 0.":
             np.angle(np.exp(2j * np.pi * turn)),
             "The headings divide a quarter of a turn, not the whole one.": np.pi / 2 * turn,
-            "The headings divide two turns.": 4 * np.pi * turn,
-            "The headings reach half a turn, which is included.": np.linspace(0, np.pi, headings),
-            "The headings begin at minus pi and end at pi: they begin at 0, without 2 pi.":
+            "The headings divide two turns, not one.": 4 * np.pi * turn,
+            "The headings go from 0 to pi with both included, but should divide the whole turn.":
+            np.linspace(0, np.pi, headings),
+            "The headings begin at minus pi and end at pi, but should begin at 0 and leave out 2 "
+            "pi.":
             np.linspace(-np.pi, np.pi, headings),
-            "All headings are 0.": 0 * turn,
-            "The headings are counted, not measured: they are angles.": 1.0 * np.arange(headings),
+            "All headings are 0, but they should divide the whole turn.": 0 * turn,
+            "The headings are counted as 0, 1, 2 and so on, but should be angles.":
+            1.0 * np.arange(headings),
             "The step between headings is a right angle, however many there are.":
             np.pi / 2 * np.arange(headings),
             "The step between headings is 2 pi divided by `places`, not by `headings`.":
             2 * np.pi * np.arange(headings) / places,
-            "The headings are rounded.": (2 * np.pi * turn).round(),
-            "The headings begin one part after 0 and end with 2 pi: 0 belongs to them, 2 pi does "
-            "not.":
+            "The headings are rounded, but should keep their fractions.":
+            (2 * np.pi * turn).round(),
+            "The headings begin one part after 0 and end with 2 pi, but should begin at 0 and "
+            "leave out 2 pi.":
             2 * np.pi * (np.arange(headings) + 1) / headings,
         },
     )  # fmt: skip
@@ -446,7 +492,7 @@ def described(poses: np.ndarray, rewards: np.ndarray, cylinder) -> dict:
     return {"search": search, **means, "steps": told}
 
 
-NO_REWARD = "Without any reward all steps belong to the search, and none is near."
+NO_REWARD = "Without any reward, all steps should belong to the search, and none should be near."
 
 
 @np.errstate(all="ignore")
@@ -459,31 +505,37 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
     if name == "search":
         return {
             NO_REWARD: np.argmax(near),
-            "The first step with a reward is part of the search here.": search + 1,
-            "The last step of the search is left out.": search - 1,
-            "All steps without a reward count here, but the search ends at the first reward.":
+            "The search is one step too long, but should end before the first reward.":
+            search + 1,
+            "The search is one step too short.": search - 1,
+            "All steps without a reward count, but the search should end at the first reward.":
             np.sum(~near),
-            "All steps count here, not those of the search.": many,
+            "All steps count, not only those of the search.": many,
             "These are the steps near the cylinder, not those of the search.": np.sum(near),
-            "Without any reward, the search has as many steps as the episode, not 500.":
+            "Without any reward, the search is given as 500 steps, but should have as many as the "
+            "episode.":
             search if near.any() else 500,
-            "Without any reward, the search has as many steps as the episode, not one more.":
+            "Without any reward, the search has one step more than the episode, but should have as "
+            "many.":
             search if near.any() else many + 1,
-            "Without any reward, the search has as many steps as the episode, not one less.":
+            "Without any reward, the search has one step less than the episode, but should have as "
+            "many.":
             search if near.any() else many - 1,
-            "The search is divided by 10 here: it is counted in steps, not in seconds.":
+            "The search is divided by 10, but should be counted in steps, not in seconds.":
             search / 10,
-            "This is the longest run of steps without a reward: the search ends at the first "
-            "reward.":
+            "This is the longest run of steps without a reward, but the search should end at the "
+            "first reward.":
             max(map(len, "".join(".x"[int(each)] for each in near).split("x"))),
-            "These are the steps from the first reward on.": many - search,
-            "The search ends at the last step with a reward, not at the first one.": last,
-            "The share of the search is given, not its number of steps.": search / many,
-            "Without any reward the search is -1 here, but has all steps of the episode.":
+            "These are the steps from the first reward on, not those before it.": many - search,
+            "The search goes on to the last step with a reward, but should end at the first one.":
+            last,
+            "This is the share of the steps that belong to the search, but their number is asked "
+            "for.": search / many,
+            "Without any reward, the search is -1, but should have as many steps as the episode.":
             search if near.any() else -1,
             "A reward in the first step is overlooked.":
             int(near[1:].argmax()) + 1 if near[1:].any() else many,
-            "The first step is left out before the first reward is sought.":
+            "The first step is left out when the first reward is looked for.":
             int(near[1:].argmax()) if near[1:].any() else many,
         }  # fmt: skip
 
@@ -504,84 +556,98 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
             forward(later),
             "The heading in the middle of the step is taken, not that at its beginning.":
             forward((theta + later) / 2),
-            "This is how far the robot moves, be it forwards or backwards.": length,
-            "The speed has lost its sign.": np.abs(forward(theta)),
-            "The speed has the wrong sign.": -forward(theta),
+            "This is how far the robot moves in any direction, but the way along its heading is "
+            "asked for.": length,
+            "The absolute value of the speed is taken, but driving backwards should be negative.":
+            np.abs(forward(theta)),
+            "The speed has the opposite sign.": -forward(theta),
             "Sine and cosine are exchanged.": dx * np.sin(theta) + dy * np.cos(theta),
-            "The part in y is subtracted from that in x, but belongs added.":
+            "The part in y is subtracted from that in x, but should be added.":
             dx * np.cos(theta) - dy * np.sin(theta),
-            "This is how far the robot moves sideways.": dy * np.cos(theta) - dx * np.sin(theta),
-            "The heading is left out: speed is along it.": dx + dy,
-            "The heading of each step is asked for, not that at the start.":
+            "This is how far the robot moves sideways, not along its heading.":
+            dy * np.cos(theta) - dx * np.sin(theta),
+            "The heading is left out, but the way along it is asked for.": dx + dy,
+            "The heading at the start is taken in all steps, not the heading of each step.":
             dx * np.cos(theta[0]) + dy * np.sin(theta[0]),
-            "The speed is multiplied by 10 here: it is asked for per step, not per second.":
+            "The speed is multiplied by 10, but should be that per step, not per second.":
             10 * forward(theta),
-            "The speed is divided by 10 here: it is asked for per step.": forward(theta) / 10,
-            "The way is divided by its own length: this is the cosine of its direction.":
+            "The speed is divided by 10, but should be that per step.": forward(theta) / 10,
+            "The way along the heading is divided by the length of the way, but should be in mm.":
             forward(theta) / np.where(length > 0, length, 1),
-            "The heading is taken for degrees: np.cos takes radians.":
+            "The heading is taken for degrees, but it is in radians, which np.cos takes.":
             forward(np.radians(theta)),
-            "The heading is turned into degrees: np.cos takes radians.":
+            "The heading is turned into degrees, but np.cos takes radians.":
             forward(np.degrees(theta)),
-            "Only the x part is there: the y part is to be added.": dx * np.cos(theta),
-            "Only the y part is there: the x part is to be added.": dy * np.sin(theta),
-            "The places are multiplied, not the ways between them.":
+            "Only dx cos(heading) is there, but dy sin(heading) should be added.":
+            dx * np.cos(theta),
+            "Only dy sin(heading) is there, but dx cos(heading) should be added.":
+            dy * np.sin(theta),
+            "The places (x, y) after the step are taken instead of the ways (dx, dy).":
             after[:, 0] * np.cos(theta) + after[:, 1] * np.sin(theta),
-            "The places are multiplied, not the ways between them: this is the beginning.":
+            "The places (x, y) before the step are taken instead of the ways (dx, dy).":
             before[:, 0] * np.cos(theta) + before[:, 1] * np.sin(theta),
-            "The way has the sign of the speed, but its own length: only the part along the "
-            "heading counts.": np.sign(forward(theta)) * length,
-            "The squares are added and the root is taken: this is not the way along the heading.":
+            "The whole length of the way is taken, with the sign of the speed, but only the part "
+            "along the heading should count.": np.sign(forward(theta)) * length,
+            "The parts in x and y are squared and added, and the root is taken, but their sum is "
+            "asked for.":
             np.hypot(dx * np.cos(theta), dy * np.sin(theta)),
-            "Ways backwards count as 0: they are negative.": np.maximum(forward(theta), 0),
-            "The way is that of the next step.": np.append(forward(theta)[1:], 0),
-            "The direction of the way is compared with the x axis, not with the heading.":
+            "Ways backwards count as 0, but should be negative.": np.maximum(forward(theta), 0),
+            "The way of the next step is taken, not that of this one.":
+            np.append(forward(theta)[1:], 0),
+            "This is the direction of the way, not how far it leads along the heading.":
             np.arctan2(dy, dx),
         },
         "turning": {
             "": turned,
-            "The heading leaps by a whole turn: take the short way around.": change,
-            "The turning has lost its sign.": np.abs(turned),
-            "The turning has the wrong sign: to the left is positive.": -turned,
-            "A turn to the right becomes a long one to the left.": change % (2 * np.pi),
-            "The turning is in degrees.": np.degrees(turned),
-            "Only one direction is taken the short way around: a turn may leap by 2 pi or -2 pi.":
+            "The change of the heading is taken as it is, but the short way around is asked for.":
+            change,
+            "The turning has lost its sign, but turns to the right should be negative.":
+            np.abs(turned),
+            "The turning has the opposite sign, but should be positive to the left.": -turned,
+            "A turn to the right is taken for a long one to the left.": change % (2 * np.pi),
+            "The turning is in degrees, not in radians.": np.degrees(turned),
+            "Only one direction is taken the short way around, and changes above pi are left as "
+            "they are.":
             np.where(change < -np.pi, change + 2 * np.pi, change),
-            "Only one direction is taken the short way around: it may leap by -2 pi or 2 pi.":
+            "Only one direction is taken the short way around, and changes below -pi are left as "
+            "they are.":
             np.where(change > np.pi, change - 2 * np.pi, change),
-            "This is the amount of the short way around, without its sign.":
+            "This is the absolute value of the short way around, without its sign.":
             np.minimum(np.abs(change), 2 * np.pi - np.abs(change)),
-            "The turning is the heading itself: take its change.": later,
-            "The turning is the heading at the beginning of the step: take its change.": theta,
-            "Half a turn is not taken off again: the short way is from -pi to pi.":
+            "The turning is the heading after the step, but its change is asked for.": later,
+            "The turning is the heading at the beginning of the step, but its change is asked for.":
+            theta,
+            "Half a turn is added and not subtracted again, but the turning should lie between -pi "
+            "and pi.":
             (change + np.pi) % (2 * np.pi),
-            "The turning lies between -2 pi and 0: a turn to the left becomes a long one to the "
-            "right.": -(-change % (2 * np.pi)),
-            "The turning is cut off at -pi and pi: a leap is a whole turn too much.":
+            "A turn to the left is taken for a long one to the right.": -(-change % (2 * np.pi)),
+            "The turning is cut off at -pi and pi, but the short way around is asked for.":
             change.clip(-np.pi, np.pi),
-            "A leap counts as 0: take the short way around.":
+            "Changes above pi and below -pi count as 0, but the short way around is asked for.":
             np.where(np.abs(change) > np.pi, 0, change),
-            "The remainder by pi is taken here, but a whole turn is 2 pi.": change % np.pi,
-            "The turning is the sine of the change.": np.sin(change),
-            "The turning is multiplied by 10 here: it is asked for per step, not per second.":
+            "The remainder by pi is taken, but a whole turn is 2 pi.": change % np.pi,
+            "The turning is the sine of the change, not the change itself.": np.sin(change),
+            "The turning is multiplied by 10, but should be that per step, not per second.":
             10 * turned,
-            "The direction in which the robot moves is taken for its heading.":
+            "The direction in which the robot moves is taken for its heading after the step.":
             np.angle(np.exp(1j * (np.arctan2(dy, dx) - theta))),
-            "np.fmod keeps the sign of what is divided, so that turns below -pi do not take the "
-            "short way: % does it.":
+            "Changes below -pi do not take the short way around, which % leads to, but np.fmod "
+            "does not.":
             np.fmod(change + np.pi, 2 * np.pi) - np.pi,
-            "Changes beyond pi and -pi are made smaller by pi here, but a whole turn is 2 pi.":
+            "Changes beyond pi and -pi are made smaller by pi, but a whole turn is 2 pi.":
             change - np.pi * np.sign(change) * (np.abs(change) > np.pi),
-            "The long way around is taken.": turned - np.sign(turned) * 2 * np.pi,
-            "The changes lie between -pi / 2 and pi / 2 here, but the short way around is between "
-            "-pi and pi.":
+            "The long way around is taken, not the short one.":
+            turned - np.sign(turned) * 2 * np.pi,
+            "The changes are brought between -pi / 2 and pi / 2, but should be from -pi to pi.":
             (change + np.pi / 2) % np.pi - np.pi / 2,
         },
         "wall": {
             "": nearest < 72.5,
-            "A robot exactly 72.5 mm from a wall counts as near: it has to be nearer than 72.5 mm.":
+            "A robot exactly 72.5 mm from a wall counts as near, but should be nearer than 72.5 mm "
+            "to count.":
             nearest <= 72.5,
-            **{f"Walls count within {limit} mm of the centre: it is 72.5 mm.": nearest < limit
+            **{f"Walls count within {limit} mm of the centre, but 72.5 mm is asked for.":
+               nearest < limit
                for limit in (25, 30, 40, 50, 55, 60, 65, 70, 75, 80, 90, 99.5, 120, 145, 150)},
             "The end of the step is looked at, not its beginning.":
             np.minimum(after[:, :2], 400 - after[:, :2]).min(axis=1) < 72.5,
@@ -589,64 +655,79 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
             "Only the right and the upper wall are looked at.": walls[2:].min(axis=0) < 72.5,
             "Only the left and the right wall are looked at.": walls[::2].min(axis=0) < 72.5,
             "Only the lower and the upper wall are looked at.": walls[1::2].min(axis=0) < 72.5,
-            "Two walls have to be near here: one is enough.":
+            "A step counts only if two walls are near, but one should be enough.":
             np.minimum(*walls.reshape(2, 2, -1)).max(axis=0) < 72.5,
-            "These are the steps far from all walls.": nearest >= 72.5,
-            "This is the distance to the nearest wall: how often is it below 72.5?": nearest,
-            "The robot's radius is subtracted, but 72.5 mm count from its centre.":
+            "These are the steps far from all walls, not those near one.": nearest >= 72.5,
+            "This is the distance to the nearest wall, but the share of steps in which it is below "
+            "72.5 mm is asked for.": nearest,
+            "Walls count within 72.5 mm of the robot's edge, but should count within 72.5 mm of "
+            "its centre.":
             nearest - 27.5 < 72.5,
-            "Walls count within 45 mm of the centre: it is 72.5 mm.": nearest < 45,
-            "Walls count within 100 mm of the centre: it is 72.5 mm.": nearest < 100,
-            "Walls count within 27.5 mm of the centre: it is 72.5 mm.": nearest < 27.5,
-            "The distance to the nearest corner counts here: it is that to a wall.":
+            "Walls count within 45 mm of the centre, but 72.5 mm is asked for.": nearest < 45,
+            "Walls count within 100 mm of the centre, but 72.5 mm is asked for.": nearest < 100,
+            "Walls count within 27.5 mm of the centre, but 72.5 mm is asked for.": nearest < 27.5,
+            "The distance to the nearest corner is taken, but the distance to the nearest wall "
+            "should count.":
             np.hypot(*np.minimum(before[:, :2], 400 - before[:, :2]).T) < 72.5,
-            "The distance to the cylinder counts here: it is that to a wall.":
+            "The distance to the cylinder is taken, but the distance to the nearest wall should "
+            "count.":
             np.hypot(from_x, from_y) < 72.5,
-            "The distance to (0, 0) counts here: it is that to a wall.":
+            "The distance to (0, 0) is taken, but the distance to the nearest wall should count.":
             np.hypot(*before[:, :2].T) < 72.5,
-            "The distance to the arena's middle counts here: it is that to a wall.":
+            "The distance to the arena's middle is taken, but the distance to the nearest wall "
+            "should count.":
             np.hypot(*(before[:, :2] - 200).T) > 127.5,
             "Only the left wall is looked at.": walls[0] < 72.5,
             "Only the lower wall is looked at.": walls[1] < 72.5,
             "Only the right wall is looked at.": walls[2] < 72.5,
             "Only the upper wall is looked at.": walls[3] < 72.5,
-            "Steps near a wall count once for each wall that is near.":
+            "Steps near two walls count twice, but should count once.":
             np.sum(walls < 72.5, axis=0),
             "The upper wall is left out.": walls[:3].min(axis=0) < 72.5,
             "The right wall is left out.": walls[[0, 1, 3]].min(axis=0) < 72.5,
             "The lower wall is left out.": walls[[0, 2, 3]].min(axis=0) < 72.5,
             "The left wall is left out.": walls[1:].min(axis=0) < 72.5,
-            "A step counts if it begins or ends near a wall: its beginning decides.":
+            "A step counts if it begins or ends near a wall, but only its beginning should decide.":
             np.minimum(nearest, np.minimum(after[:, :2], 400 - after[:, :2]).min(axis=1)) < 72.5,
-            "The arena is 400 mm wide: the far walls are elsewhere here.":
+            "The right and the upper wall are taken to be at 500 mm, but should be at 400 mm.":
             np.minimum(before[:, :2].min(axis=1), 500 - before[:, :2].max(axis=1)) < 72.5,
-            "The share is given in per cent.": 100 * (nearest < 72.5),
-            "In Python `&` binds more tightly than `|`: x and y are mixed up here.":
+            "The share is given in per cent, but should lie between 0 and 1.":
+            100 * (nearest < 72.5),
+            "The right and the lower wall count only if both are near (in Python `&` binds more "
+            "tightly than `|`).":
             (walls[0] < 72.5) | ((walls[2] < 72.5) & (walls[1] < 72.5)) | (walls[3] < 72.5),
-            "Both x and y have to be near a wall: one of them is enough.":
+            "A step counts only if x and y are both near a wall, but one of them should be enough.":
             ((walls[0] < 72.5) | (walls[2] < 72.5)) & ((walls[1] < 72.5) | (walls[3] < 72.5)),
         },
         "pace": {
             "": length,
-            "The pace counts only what leads forwards.": forward(theta),
-            "The pace is the amount of what leads forwards.": np.abs(forward(theta)),
-            "The square root is left out.": length**2,
-            "The pace is the sum of the two ways, not the straight one.": np.abs(dx) + np.abs(dy),
-            "The pace is that of the step before.": np.append(0, length[:-1]),
-            "The pace is that of the step after.": np.append(length[1:], 0),
-            "The change of the heading is counted in the pace.": np.sqrt(length**2 + change**2),
-            "The pace is multiplied by 10 here: it is asked for per step, not per second.":
+            "The pace is the way along the heading, but the whole length of the way is asked for.":
+            forward(theta),
+            "The pace is the absolute value of the way along the heading, but the whole length of "
+            "the way is asked for.": np.abs(forward(theta)),
+            "The square root is left out of the length of the way.": length**2,
+            "The pace is the sum of the ways in x and y, not the straight way.":
+            np.abs(dx) + np.abs(dy),
+            "The pace is that of the step before, not that of this step.":
+            np.append(0, length[:-1]),
+            "The pace is that of the step after, not that of this step.": np.append(length[1:], 0),
+            "The change of the heading is counted in the pace, but only x and y should count.":
+            np.sqrt(length**2 + change**2),
+            "The pace is multiplied by 10, but should be that per step, not per second.":
             10 * length,
-            "The pace is the way to the cylinder.": np.hypot(to_x, to_y),
-            "The pace is the change of the distance to the cylinder.":
+            "The pace is the distance to the cylinder, not how far the robot moves.":
+            np.hypot(to_x, to_y),
+            "The pace is the change of the distance to the cylinder, not how far the robot moves.":
             np.hypot(from_x, from_y) - np.hypot(to_x, to_y),
-            "The pace is the amount of the change of the distance to the cylinder.":
+            "The pace is the absolute change of the distance to the cylinder, not how far the "
+            "robot moves.":
             np.abs(np.hypot(from_x, from_y) - np.hypot(to_x, to_y)),
-            "Only the way in x is counted.": np.abs(dx),
-            "Only the way in y is counted.": np.abs(dy),
-            "The pace is the larger one of the two ways.": np.maximum(np.abs(dx), np.abs(dy)),
-            "The pace is the turning, not the way.": np.abs(turned),
-            "The place itself is measured: take the way from pose to pose.":
+            "Only the way in x is counted, but that in y should count, too.": np.abs(dx),
+            "Only the way in y is counted, but that in x should count, too.": np.abs(dy),
+            "The pace is the larger one of the ways in x and y, not the straight way.":
+            np.maximum(np.abs(dx), np.abs(dy)),
+            "The pace is how far the robot turns, not how far it moves.": np.abs(turned),
+            "The pace is the distance from (0, 0), but the way from pose to pose is asked for.":
             np.hypot(*after[:, :2].T),
         },
         "side": {
@@ -658,36 +739,41 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
             "The heading is that before the step, not that after it.": np.sin(bearing - theta),
             "This is the cosine, not the sine.": np.cos(bearing - later),
             "Left and right are exchanged.": np.sin(later - bearing),
-            "The heading is not subtracted.": np.sin(bearing),
-            "The heading is added, not subtracted.": np.sin(bearing + later),
-            "The sine is not taken.": bearing - later,
-            "The direction is computed as arctan2(dx, dy), but arctan2(dy, dx) is asked for.":
+            "The heading is not subtracted from the direction of the cylinder.": np.sin(bearing),
+            "The heading is added, but should be subtracted.": np.sin(bearing + later),
+            "This is the angle itself, but its sine is asked for.": bearing - later,
+            "The direction is arctan2(dx, dy), but should be arctan2(dy, dx).":
             np.sin(np.arctan2(to_x, to_y) - later),
-            "This is the sine times the distance to the cylinder.":
+            "This is the sine times the distance to the cylinder, not the sine alone.":
             np.sin(bearing - later) * np.hypot(to_x, to_y),
-            "Only the sign of the side is taken.": np.sign(np.sin(bearing - later)),
+            "Only the sign of the sine is taken, not the sine itself.":
+            np.sign(np.sin(bearing - later)),
             "The direction leads from the arena's middle to the cylinder, not from the robot.":
             np.sin(np.arctan2(cylinder[1] - 200, cylinder[0] - 200) - later),
-            "The direction is that of the cylinder's coordinates: it leads from the robot to it.":
+            "The direction leads from (0, 0) to the cylinder, but should lead from the robot.":
             np.sin(np.arctan2(cylinder[1], cylinder[0]) - later),
-            "The direction leads from the start to the cylinder: take the robot's place.":
+            "The direction leads from the start to the cylinder, but should lead from the robot's "
+            "place after each step.":
             np.sin(np.arctan2(*(np.asarray(cylinder) - poses[0, :2])[::-1]) - later),
-            "The heading at the start is subtracted: take that after each step.":
+            "The heading at the start is subtracted, not that after each step.":
             np.sin(bearing - poses[0, 2]),
-            "The angle is turned into degrees: np.sin takes radians.":
+            "The angle is turned into degrees, but np.sin takes radians.":
             np.sin(np.degrees(bearing - later)),
-            "The angle is taken for degrees: np.sin takes radians.":
+            "The angle is taken for degrees, but it is in radians, which np.sin takes.":
             np.sin(np.radians(bearing - later)),
-            "np.arctan(dy / dx) does not tell a cylinder ahead from one behind: use np.arctan2.":
+            "The direction is arctan(dy / dx), which takes opposite directions for the same, "
+            "unlike np.arctan2(dy, dx).":
             np.sin(np.arctan(to_y / np.where(to_x == 0, 1e-9, to_x)) - later),
-            "The side has lost its sign: -1 means that the cylinder is to the right.":
+            "The absolute value of the side is taken, but it should be negative if the cylinder is "
+            "to the right.":
             np.abs(np.sin(bearing - later)),
             "This is the tangent, not the sine.": np.tan(bearing - later),
-            "This is the angle itself, the short way around: its sine is asked for.":
+            "This is the angle itself, the short way around, but its sine is asked for.":
             np.angle(np.exp(1j * (bearing - later))),
-            "The direction in which the robot moves is taken for its heading.":
+            "The direction in which the robot moves is taken for its heading after the step.":
             np.sin(bearing - np.arctan2(dy, dx)),
-            "The sine of each is subtracted: take the sine of the difference.":
+            "This is the sine of the direction minus the sine of the heading, but the sine of "
+            "their difference is asked for.":
             np.sin(bearing) - np.sin(later),
             "x and y of the cylinder are exchanged.":
             np.sin(np.arctan2(cylinder[0] - after[:, 1], cylinder[1] - after[:, 0]) - later),
@@ -695,26 +781,25 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
     }  # fmt: skip
     of_search = {
         "": steps < search,
-        "All steps without a reward count here, but the search ends at the first reward.": ~near,
-        "All steps count here, not those of the search.": steps >= 0,
-        "The first step with a reward is part of the search here.": steps <= search,
-        "The last step of the search is left out.": steps < search - 1,
+        "All steps without a reward count, but the search should end at the first reward.": ~near,
+        "All steps count, not only those of the search.": steps >= 0,
+        "The search is one step too long, but should end before the first reward.": steps <= search,
+        "The search is one step too short.": steps < search - 1,
         "The first step is left out.": (steps > 0) & (steps < search),
         "These are the steps near the cylinder, not those of the search.": near,
         NO_REWARD: steps < np.argmax(near),
     }
     of_near = {
         "": near,
-        "All steps after the search count here, but those without a reward are not near.": steps
-        >= search,
-        "All steps count here, not those with a reward.": steps >= 0,
+        "All steps after the search count, but only those with a reward should.": steps >= search,
+        "All steps count, not only those with a reward.": steps >= 0,
         "These are the steps of the search, not those near the cylinder.": steps < search,
-        "These are the steps without a reward.": ~near,
-        "Only the first step near the cylinder counts.": steps == search,
+        "These are the steps without a reward, not those with one.": ~near,
+        "Only the first step near the cylinder counts, but all of them should.": steps == search,
         "The first step near the cylinder is left out.": near & (steps > search),
-        "The steps are one too early.": np.append(near[1:], False),
-        "The steps are one too late.": np.append(False, near[:-1]),
-        "Steps count from the first reward to the last: only those with a reward do.": (
+        "For each step with a reward, the step before it is taken.": np.append(near[1:], False),
+        "For each step with a reward, the step after it is taken.": np.append(False, near[:-1]),
+        "All steps from the first reward to the last count, but only those with a reward should.": (
             steps >= search
         )
         & (steps <= last),
@@ -731,15 +816,18 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
         )
         many_near = max(int(near.sum()), 1)
         extra = {
-            "These are the ways from one place with a reward to the next such place: take "
-            "each step from its own beginning to its end.": hops.mean(),
+            "These are the ways from one place with a reward to the next such place, but the way "
+            "from the beginning to the end of each step is asked for.": hops.mean(),
             "These are the ways from the beginning of one step with a reward to the beginning of "
-            "the next such step: take each step from its own beginning to its end.": starts.mean(),
-            "The ways are added up with their directions, so they cancel out: take each length.":
+            "the next such step, but the way from the beginning to the end of each step is asked "
+            "for.": starts.mean(),
+            "The ways are added up with their directions, so that they cancel out, but the mean of "
+            "their lengths is asked for.":
             np.hypot(dx[near].sum(), dy[near].sum()) / many_near,
-            "The root is taken of the mean of the squares: take the mean of the lengths.":
+            "This is the root of the mean of the squares, not the mean of the lengths.":
             np.sqrt(np.sum(length[near] ** 2) / many_near),
-            "This is the straight way from the first place near the cylinder to the last one.":
+            "This is the straight way from the first place near the cylinder to the last one, "
+            "divided by the steps near it, but the mean way of these steps is asked for.":
             np.hypot(*(spots[-1] - spots[0])) / many_near if len(spots) else 0.0,
         }  # fmt: skip
     elif name == "speed":
@@ -747,25 +835,29 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
         part = steps < search
         ahead = np.array([np.cos(theta[part]).mean(), np.sin(theta[part]).mean()]) if search else 0
         extra = {
-            "This is the straight way of the whole search, divided by its steps: take each "
-            "step.": gone / max(search, 1),
-            "Mean ways and mean headings are multiplied: multiply in each step first.":
+            "This is the straight way of the whole search, divided by its steps, but the mean way "
+            "along the heading of each step is asked for.": gone / max(search, 1),
+            "The mean ways are multiplied by the mean sine and cosine, but this should be done in "
+            "each step, before the mean.":
             float(np.sum(ahead * np.array([dx[part].mean(), dy[part].mean()]))) if search else 0.0,
         }  # fmt: skip
     elif name == "side":
         away = np.linalg.norm(np.stack([to_x, to_y]))
         cross = np.sin(bearing - later) * np.hypot(to_x, to_y) / away
-        extra = {"All steps are divided by one length: each has a distance of its own (axis=1).":
+        extra = {"All steps are divided by the same length, but each should be divided by its own "
+                 "distance (axis=1).":
                  cross[near].mean() if near.any() else 0.0,
-                 "Directions and headings are averaged first: take the sine in each step.":
+                 "Directions and headings are averaged first, but the sine should be taken in each "
+                 "step, before the mean.":
                  np.sin(np.arctan2(to_y[near].mean(), to_x[near].mean()) - later[near].mean())
                  if near.any() else 0.0}  # fmt: skip
     elif name == "turning":
         gone = poses[search, 2] - poses[0, 2]
         extra = {
-            "The short way around is taken once, from the first heading to the last: take it in "
-            "each step.": ((gone + np.pi) % (2 * np.pi) - np.pi) / max(search, 1),
-            "The mean is taken first and the short way around then: take it in each step.":
+            "The short way around is taken once, from the first heading to the last, but should be "
+            "taken in each step.": ((gone + np.pi) % (2 * np.pi) - np.pi) / max(search, 1),
+            "The short way around is taken after the mean, but should be taken in each step, "
+            "before the mean.":
             (gone / max(search, 1) + np.pi) % (2 * np.pi) - np.pi,
         }  # fmt: skip
     else:
@@ -780,13 +872,16 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
         which=of_near if name in ("pace", "side") else of_search,
         summary={
             "": np.mean,
-            "The values are added up: the mean is asked for.": np.sum,
+            "The values are added up, but their mean is asked for.": np.sum,
             "This is the median, not the mean.": np.median,
-            "This is the mean of the amounts.": lambda v: np.abs(v).mean(),
-            "The sum is divided by all steps of the episode.": lambda v: v.sum() / many,
+            "This is the mean of the absolute values.": lambda v: np.abs(v).mean(),
+            "The sum is divided by the number of all steps of the episode, not by that of its own "
+            "steps.": lambda v: v.sum() / many,
             "This is the last value, not the mean.": lambda v: v[-1],
-            "The sum is divided by one too few.": lambda v: v.sum() / max(len(v) - 1, 1),
-            "The sum is divided by one too many.": lambda v: v.sum() / (len(v) + 1),
+            "The sum is divided by one less than the number of values.":
+            lambda v: v.sum() / max(len(v) - 1, 1),
+            "The sum is divided by one more than the number of values.":
+            lambda v: v.sum() / (len(v) + 1),
             "This is the first value, not the mean.": lambda v: v[0],
             "This is the largest value, not the mean.": np.max,
             "This is the smallest value, not the mean.": np.min,
@@ -797,13 +892,18 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
 
 
 MEANT = {
-    "search": "The search is all steps before the first one with a reward.",
-    "speed": "Mean over the search of dx cos(heading) + dy sin(heading), with the heading before.",
-    "turning": "Mean over the search of the change of the heading, the short way around.",
-    "wall": "Share of the steps of the search that begin nearer than 72.5 mm to one of four walls.",
-    "pace": "Mean over all steps with a reward of the straight way from pose to pose.",
-    "side": "Mean over all steps with a reward of the sine of the direction of the cylinder minus "
-    "the heading, both after the step.",
+    "search": "The number of steps before the first one with a reward, or of all steps if there is "
+    "none.",
+    "speed": "The mean of dx cos(heading) + dy sin(heading) over the search, with the heading "
+    "before each step, or 0 if no step belongs to it.",
+    "turning": "The mean change of the heading in a step of the search, the short way around, or 0 "
+    "if no step belongs to it.",
+    "wall": "The share of the steps of the search that begin nearer than 72.5 mm to at least one "
+    "of the four walls, or 0 if no step belongs to it.",
+    "pace": "The mean length of the straight way from pose to pose, over all steps with a reward, "
+    "or 0 if there are none.",
+    "side": "The mean sine of the direction of the cylinder minus the heading, both after the "
+    "step, over all steps with a reward, or 0 if there are none.",
 }
 
 
@@ -811,7 +911,10 @@ def scaled(answer, table: np.ndarray, row: int, column: int) -> str:
     """What is right and wrong about a column of a standardised table."""
     got, values = np.asarray(answer, dtype=float)[:, column], table[:, column]
     steps, own = np.diff(got), np.diff(values)
-    said = f"Column {column} has the mean {values.mean():.6g} and the deviation {values.std():.6g}."
+    said = (
+        f"Column {column} has the mean {values.mean():.6g} and the standard deviation "
+        f"{values.std():.6g}."
+    )
     factor = float(steps @ own / (own @ own))
     if factor <= 0 or np.abs(steps - factor * own).max() > 1e-6 * np.abs(got).max():
         return said
@@ -831,9 +934,12 @@ def wrong_scales(table: np.ndarray) -> dict:
     """What slips make of a standardised table."""
     deviations = {
         "": (0, 0),
-        "Each row is brought to one scale: each column is asked for (axis=0).": (1, 0),
-        "The whole table is brought to one scale: each column is asked for (axis=0).": (None, 0),
-        "The standard deviation has ddof=1: ddof=0 is asked for.": (0, 1),
+        "The standard deviation is that of each row, not that of each column (axis=0).": (1, 0),
+        "The standard deviation is that of the whole table, not that of each column (axis=0).": (
+            None,
+            0,
+        ),
+        "The standard deviation has ddof=1, but ddof=0 is asked for.": (0, 1),
     }
     return slips(
         lambda centre, spread: (table - centre) / np.where(spread < 1e-12, 1.0, spread),
@@ -851,43 +957,53 @@ def wrong_scales(table: np.ndarray) -> dict:
             for text, (axis, ddof) in deviations.items() if len(table) > ddof
         } | {
             "The differences are not divided by the standard deviation.": np.ones((1, 1)),
-            "The variance is taken for the standard deviation.": table.var(axis=0),
+            "The differences are divided by the variance, not by the standard deviation.":
+            table.var(axis=0),
             "The differences are divided by the range, not by the standard deviation.":
             np.ptp(table, axis=0),
-            "The differences are divided by the largest one.":
+            "The differences are divided by the largest of their absolute values, not by the "
+            "standard deviation.":
             np.abs(table - table.mean(axis=0)).max(axis=0),
-            "The differences are divided by the length of the column: divide by its deviation.":
+            "The differences are divided by the root of the sum of their squares, not by the "
+            "standard deviation.":
             np.linalg.norm(table - table.mean(axis=0), axis=0),
             "The differences are divided by the mean, not by the standard deviation.":
             table.mean(axis=0),
-            "The differences are divided by the root of the standard deviation.":
+            "The differences are divided by the root of the standard deviation, not by the "
+            "standard deviation itself.":
             np.sqrt(table.std(axis=0)),
-            "The differences are divided by the mean amount of the differences.":
+            "The differences are divided by the mean of their absolute values, not by the standard "
+            "deviation.":
             np.abs(table - table.mean(axis=0)).mean(axis=0),
-            "The differences are divided by the sum of the column.": table.sum(axis=0),
-            "The differences are divided by the largest value of the column.": table.max(axis=0),
-            "The standard deviation is that of the amounts.": np.abs(table).std(axis=0),
+            "The differences are divided by the sum of the column, not by the standard deviation.":
+            table.sum(axis=0),
+            "The differences are divided by the largest value of the column, not by the standard "
+            "deviation.": table.max(axis=0),
+            "The standard deviation is that of the absolute values, not that of the values.":
+            np.abs(table).std(axis=0),
             "The differences are divided by the root of the mean square of the column, not of the "
             "differences.": np.sqrt((table**2).mean(axis=0)),
         },
     ) | {
-        "The mean alone is divided, not the difference: brackets are missing.":
+        "The mean alone is divided by the standard deviation, not the difference from it.":
         table - table.mean(axis=0) / table.std(axis=0),
-        "The mean is subtracted after the division: subtract it first.":
+        "The mean is subtracted after the division, but should be subtracted before it.":
         table / table.std(axis=0) - table.mean(axis=0),
-        "The differences are multiplied by the standard deviation: divide by it.":
+        "The differences are multiplied by the standard deviation, but should be divided by it.":
         (table - table.mean(axis=0)) * table.std(axis=0),
-        "The values are added to the mean: subtract it.":
+        "The mean is added to the values, but should be subtracted from them.":
         (table + table.mean(axis=0)) / table.std(axis=0),
-        "The differences have lost their signs.":
+        "The absolute values of the differences are taken, but they should keep their signs.":
         np.abs(table - table.mean(axis=0)) / table.std(axis=0),
-        "The differences are turned around: subtract the mean from the value.":
+        "The values are subtracted from the mean, but the mean should be subtracted from the "
+        "values.":
         (table.mean(axis=0) - table) / table.std(axis=0),
-        "The places in the order of the column are given, not the values.":
+        "These are the places of the values in the order of their column, not the standardised "
+        "values.":
         table.argsort(axis=0).argsort(axis=0),
-        "The standard deviation is that of the last column, for all.":
+        "The differences of all columns are divided by the standard deviation of the last column.":
         (table - table.mean(axis=0)) / table[:, -1].std(),
-        "The standard deviation is that of the first column, for all.":
+        "The differences of all columns are divided by the standard deviation of the first column.":
         (table - table.mean(axis=0)) / table[:, 0].std(),
     }  # fmt: skip
 
@@ -989,90 +1105,113 @@ def wrong_families(table: np.ndarray, threshold: float) -> dict:
     """What one slip makes of families."""
     rows = {
         "": lambda t: (t - t.mean(axis=0)) / table.std(axis=0),
-        "The descriptors are not brought to one scale first.": lambda t: t + 0.0,
-        "The descriptors are brought to one scale with ddof=1.":
+        "The descriptors are compared as they are, but should be standardised first.":
+        lambda t: t + 0.0,
+        "The descriptors are standardised with ddof=1, but ddof=0 is asked for.":
         lambda t: (t - t.mean(axis=0)) / t.std(axis=0, ddof=1),
-        "The scale is that of each robot, not that of each column.":
+        "Each robot's row is standardised, not each column.":
         lambda t: (t - t.mean(axis=1, keepdims=True)) / t.std(axis=1, keepdims=True),
-        "The scale is that of the whole table, not that of each column.":
+        "The whole table is standardised at once, not each column.":
         lambda t: (t - t.mean()) / t.std(),
     }  # fmt: skip
     apart = {
         "": lambda d: np.sqrt((d**2).sum(axis=2)),
-        "The square root of the distance is left out.": lambda d: (d**2).sum(axis=2),
-        "The distance is the sum of the differences, not the straight line.":
+        "The square root is left out of the distance of two robots.": lambda d: (d**2).sum(axis=2),
+        "The distance of two robots is the sum of the absolute differences, not the length of the "
+        "difference.":
         lambda d: np.abs(d).sum(axis=2),
-        "The distance is the largest difference, not the straight line.":
+        "The distance of two robots is the largest absolute difference, not the length of the "
+        "difference.":
         lambda d: np.abs(d).max(axis=2),
-        "The distance is the root of the mean of the squares, not of their sum.":
+        "The distance of two robots is the root of the mean of the squares, not of their sum.":
         lambda d: np.sqrt((d**2).mean(axis=2)),
     }  # fmt: skip
     link = {
         "": lambda a, b, m, n: (m * a + n * b) / (m + n),
-        "Families are as near as their nearest robots: take the mean over all pairs.":
+        "The distance of two families is that of their nearest robots, but the mean over all pairs "
+        "is asked for.":
         lambda a, b, m, n: np.minimum(a, b),
-        "Families are as far apart as their most different robots: take the mean over all pairs.":
+        "The distance of two families is that of their most different robots, but the mean over "
+        "all pairs is asked for.":
         lambda a, b, m, n: np.maximum(a, b),
-        "When two families merge, their distances are averaged whatever their sizes: the mean "
+        "When two families merge, their distances are averaged whatever their sizes, but the mean "
         "over all pairs of robots is asked for.":
         lambda a, b, m, n: (a + b) / 2,
         "A family is represented by its first robot, but the mean over all pairs is asked for.":
         lambda a, b, m, n: a,
-        "The distances of the pairs are added up: take their mean.": lambda a, b, m, n: a + b,
+        "The distances of the pairs are added up, but their mean is asked for.":
+        lambda a, b, m, n: a + b,
     }  # fmt: skip
     rule = {
         "": "nearest",
-        "Families exactly as far apart as the threshold are merged.": "equal",
-        "The first pair nearer than the threshold is merged, not the two nearest families.":
+        "Families exactly as far apart as the threshold are merged, but should be nearer than it.":
+        "equal",
+        "The first pair nearer than the threshold is merged, but the two nearest families should "
+        "be merged.":
         "first",
-        "The first pair below the threshold is merged, not the two nearest families.": "lowest",
-        "Each robot joins the first robot that is near, but families are to be merged, the "
-        "nearest first.":
+        "The first pair below the threshold is merged, but the two nearest families should be "
+        "merged.": "lowest",
+        "Each robot joins the first robot that is near, but families should be merged, the nearest "
+        "first.":
         "leader",
-        "The distance of two families is that of their means: take the mean distance of robots.":
+        "The distance of two families is that of their mean rows, but the mean distance of their "
+        "robots is asked for.":
         "centre",
-        "Only one merger is made: merge again and again.": "once",
-        "The pairs inside a family are counted, too: take the mean over a robot of the one and a "
-        "robot of the other.": "union",
-        "The median over the pairs is taken, not the mean.": "median",
-        "The nearest and the farthest pair are averaged: take the mean over all pairs.":
+        "Only one merger is made, but merging should go on until no two families are nearer than "
+        "the threshold.": "once",
+        "The pairs inside a family are counted, too, but only pairs of a robot of the one and a "
+        "robot of the other should be.": "union",
+        "The median over all pairs of robots is taken, not the mean.": "median",
+        "The distances of the nearest and the farthest pair are averaged, but the mean over all "
+        "pairs is asked for.":
         "sum of nearest",
-        "The distances are squared before the mean is taken.": "root",
-        "A family is represented by its last robot: take the mean over all pairs.": "last",
-        "One of the two families is represented by its first robot: take the mean over all pairs.":
+        "The distance of two families is the root of the mean square over all pairs, not the mean "
+        "over all pairs.": "root",
+        "A family is represented by its last robot, but the mean over all pairs is asked for.":
+        "last",
+        "One of the two families is represented by its first robot, but the mean over all pairs is "
+        "asked for.":
         "first row",
-        "The sum over all pairs is divided by the robots of one family: divide by the number of "
-        "pairs.": "one member",
-        "The two families farthest apart are merged, not the two nearest.": "farthest",
-        "Of the families nearer than the threshold, the two farthest apart are merged, not the two "
-        "nearest.": "farthest below",
+        "The sum over all pairs is divided by the number of robots of one family, but should be "
+        "divided by the number of pairs.": "one member",
+        "The two families farthest apart are merged, but the two nearest should be merged.":
+        "farthest",
+        "Of the families nearer than the threshold, the two farthest apart are merged, but the two "
+        "nearest should be merged.": "farthest below",
     }  # fmt: skip
     make = partial(joined, table, threshold)
     many = np.size(table, axis=1)
     other = {
-        "The threshold is multiplied by the number of columns.": threshold * many,
-        "The threshold is divided by the number of columns.": threshold / many,
-        "The threshold is multiplied by the root of the number of columns.": threshold
-        * np.sqrt(many),
-        "The threshold is divided by the root of the number of columns.": threshold / np.sqrt(many),
-        "The square of the distance is compared with the threshold.": np.sqrt(threshold),
-        "The distance is compared with the square of the threshold.": threshold**2,
-        "Twice the threshold is used.": 2 * threshold,
-        "Half of the threshold is used.": threshold / 2,
+        "The distance is compared with the threshold times the number of columns, not with the "
+        "threshold.": threshold * many,
+        "The distance is compared with the threshold divided by the number of columns, not with "
+        "the threshold.": threshold / many,
+        "The distance is compared with the threshold times the root of the number of columns, not "
+        "with the threshold.": threshold * np.sqrt(many),
+        "The distance is compared with the threshold divided by the root of the number of columns, "
+        "not with the threshold.": threshold / np.sqrt(many),
+        "The square of the distance is compared with the threshold, not the distance.": np.sqrt(
+            threshold
+        ),
+        "The distance is compared with the threshold squared, not with the threshold.": threshold
+        ** 2,
+        "The distance is compared with twice the threshold, not with the threshold.": 2 * threshold,
+        "The distance is compared with half of the threshold, not with the threshold.": threshold
+        / 2,
     }
     right = {name: part[""] for name, part in
              {"rows": rows, "apart": apart, "link": link, "rule": rule}.items()}  # fmt: skip
     at_other = {text: joined(table, value, **right) for text, value in other.items()}
     found = slips(make, most=1, rows=rows, apart=apart, link=link, rule=rule) | at_other
-    found["All robots are in one family here."] = np.zeros(len(table))
-    found["Each robot is in a family of its own here."] = np.arange(len(table))
+    found["All robots are in one family, but they should not be."] = np.zeros(len(table))
+    found["Each robot is in a family of its own, but some belong together."] = np.arange(len(table))
     return found
 
 
 REMEMBERED = {
-    "forget": "All zeros are asked for.",
-    "freeze": "Before step `since` the memory is `after`; from then on it stays what `before` is "
-    "in step `since`.",
+    "forget": "`forget` should return all zeros, in the shape of `after`.",
+    "freeze": "Before step `since` the memory should be `after`; from then on it should stay what "
+    "`before` is in step `since` of the same episode.",
 }
 
 
@@ -1083,35 +1222,40 @@ def wrong_memories(first: np.ndarray, afters: np.ndarray, episode: int) -> dict:
         **(
             {
                 "This is the memory at the beginning of the second episode, though the first one "
-                "was "
-                "right: something goes on from one episode to the next, for example a count or a "
-                "flag.": first,
+                "was right, so something (for example a count or a flag) is kept from one episode "
+                "to the next.": first,
                 **{
-                    f"This is the memory after step {k} of the first episode: it is kept from one "
-                    "episode to the next.": each
+                    f"This is the memory after step {k} of the first episode, but nothing should "
+                    "be kept from one episode to the next.": each
                     for k, each in enumerate(other)
                 },
             }
             if episode
             else {}
         ),
-        "This is the memory at the beginning of the episode, or always the one before.": first,
-        "This memory is empty.": 0 * first,
-        **{f"This is the memory after step {k}.": each for k, each in enumerate(own)},
-        "Only the cells are empty, but the outputs are memory, too.": own[0] * [[0], [1]],
+        "This is still the memory at the beginning of the episode.": first,
+        "This memory is all zeros, but should not be.": 0 * first,
         **{
-            f"The {what} are those of step {k}, the others are empty.": each * factors
+            f"This is the memory after step {k} of this episode.": each
+            for k, each in enumerate(own)
+        },
+        "The cells are 0, but the outputs are not, though they belong to the memory, too.": own[0]
+        * [[0], [1]],
+        **{
+            f"The {what} are those after step {k}, and the other row is 0.": each * factors
             for k, each in enumerate(own)
             for what, factors in (("cells", [[1], [0]]), ("outputs", [[0], [1]]))
         },
         **{
-            f"The {what} are those of step {k}, the others those of step {k + 1}: the whole memory "
-            "is frozen.": np.stack([own[k + (what != "cells")][0], own[k + (what == "cells")][1]])
+            f"The {what} are those after step {k}, but the other row is that after step "
+            f"{k + 1}.": np.stack([own[k + (what != "cells")][0], own[k + (what == "cells")][1]])
             for k in range(len(own) - 1)
             for what in ("cells", "outputs")
         },
-        "This is a memory of ones: an empty memory is 0.": np.ones_like(first),
-        "A memory has two rows, the cells and the outputs: this is one row.": np.zeros(UNITS),
+        "This is a memory of ones (an empty memory is all zeros).": np.ones_like(first),
+        "This is one row, but a memory should have two rows, the cells and the outputs.": np.zeros(
+            UNITS
+        ),
     }
 
 
@@ -1119,37 +1263,42 @@ def changed_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: st
     """What comes of changed poses, rewards or places of the cylinder."""
     near = name in ("pace", "side")
     other = {
-        "The rewards are one step too early." if near else
-        "The search ends one step too early: it is all steps before the first one with a reward.":
+        "Each reward is taken for that of the step before it." if near else
+        "The search ends one step too early, but should be all steps before the first one with a "
+        "reward.":
         (poses, np.append(rewards[1:], 0), cylinder),
-        "The rewards are one step too late." if near else
-        "The search goes one step too far: the first step with a reward is not part of it.":
+        "Each reward is taken for that of the step after it." if near else
+        "The search goes one step too far, but the first step with a reward should not be part of "
+        "it.":
         (poses, np.append(0, rewards[:-1]), cylinder),
         "x and y of the poses are exchanged.": (poses[:, [1, 0, 2]], rewards, cylinder),
         "x and y of the cylinder are exchanged.": (poses, rewards, cylinder[::-1]),
-        "The headings are turned into degrees: NumPy takes radians.":
+        "The headings are turned into degrees, but NumPy takes radians.":
         (np.column_stack([poses[:, :2], np.degrees(poses[:, 2])]), rewards, cylinder),
-        "The headings are taken for degrees.":
+        "The headings are taken for degrees, but they are in radians, which NumPy takes.":
         (np.column_stack([poses[:, :2], np.radians(poses[:, 2])]), rewards, cylinder),
         "The headings have the opposite sign.": (poses * [1, 1, -1], rewards, cylinder),
-        "The headings count from the y axis, not from the x axis.":
+        "The headings are taken to count from the y axis, but they count from the x axis.":
         (np.add(poses, [0, 0, np.pi / 2]), rewards, cylinder),
-        "Steps with a reward are taken for those without, and the reverse.":
+        "Steps with a reward are taken for those without, and the other way round.":
         (poses, 1 - rewards, cylinder),
         "The poses stand in the opposite order.": (poses[::-1], rewards, cylinder),
         "Poses and rewards stand in the opposite order.":
         (poses[::-1], rewards[::-1], cylinder),
-        "The heading of each step is that of the step before.":
+        "For each heading, that of the step before is taken.":
         (np.column_stack([poses[:, :2], poses[[0, *range(len(rewards))], 2]]), rewards, cylinder),
-        "The heading at the start is taken for all steps.":
+        "The heading at the start is taken for all poses.":
         (np.column_stack([poses[:, :2], 0 * poses[:, 2] + poses[0, 2]]), rewards, cylinder),
         "The cylinder is taken to be in the middle of the arena.": (poses, rewards, [200, 200]),
         "The cylinder is taken to be at (0, 0).": (poses, rewards, [0, 0]),
-        "The places are rounded first.": (np.column_stack([poses[:, :2].round(), poses[:, 2]]),
+        "The places are rounded first, but should keep their fractions.":
+        (np.column_stack([poses[:, :2].round(), poses[:, 2]]),
                                           rewards, cylinder),
-        "Millimetres are turned into metres.": (poses * [0.001, 0.001, 1], rewards,
+        "Millimetres are turned into metres, but mm are asked for.":
+        (poses * [0.001, 0.001, 1], rewards,
                                                 np.multiply(cylinder, 0.001)),
-        "Millimetres are turned into centimetres.": (poses * [0.1, 0.1, 1], rewards,
+        "Millimetres are turned into centimetres, but mm are asked for.":
+        (poses * [0.1, 0.1, 1], rewards,
                                                      np.multiply(cylinder, 0.1)),
     }  # fmt: skip
     if len(rewards) > 1:
@@ -1176,27 +1325,28 @@ def wrong_reactions(brain: dict, seen: np.ndarray, memories: np.ndarray) -> dict
     actions = np.array([action for action, _ in found])
     made_memories = np.array([memory for _, memory in found])
     others = {
-        "The actions are read from the given outputs: `think` is not called.": old,
-        "These are the new memories: the actions are asked for.": made_memories,
-        "These are the new cells: the actions are asked for.": made_memories[:, 0],
-        "These are the new outputs: the actions are asked for.": made_memories[:, 1],
-        "This is the action of the first wheel alone.": actions[:, 0],
-        "This is the action of the second wheel alone.": actions[:, 1],
+        "The actions are read from the given outputs, but a step of the network with each memory "
+        "is asked for.": old,
+        "These are the new memories, but the actions are asked for.": made_memories,
+        "These are the new cells, but the actions are asked for.": made_memories[:, 0],
+        "These are the new outputs, but the actions are asked for.": made_memories[:, 1],
+        "These are the actions of the first wheel alone.": actions[:, 0],
+        "These are the actions of the second wheel alone.": actions[:, 1],
         "This is the action to the first memory alone.": actions[0],
         "This is the action to the last memory alone.": actions[-1],
-        "This is the mean of the actions: the action to each memory is asked for.":
+        "This is the mean of the actions, but the action to each memory is asked for.":
         actions.mean(axis=0),
-        "All actions are in one row: each has a row of its own.": actions.ravel(),
-        "A row for each wheel is given: each action has a row of its own.": actions.T,
+        "All actions are in one row, but each should have a row of its own.": actions.ravel(),
+        "There is a row for each wheel, but each action should have a row of its own.": actions.T,
         "The last memory is left out.": actions[:-1],
         "The first memory is left out.": actions[1:],
         "The action to the first memory is subtracted from all.": actions - actions[0],
         "The mean of the actions is subtracted from all.": actions - actions.mean(axis=0),
         "The action to an empty memory is subtracted from all.":
         actions - answer_of(brain, seen, 0 * memories[0])[0],
-        "The action is put through tanh once more: `think` has done this.": np.tanh(actions),
+        "The action is put through tanh once more, but `think` has done this.": np.tanh(actions),
         "The two wheels are exchanged.": actions[:, ::-1],
-        "The memories are reshaped to cells and outputs: this mixes those of different memories.":
+        "The memories are reshaped to cells and outputs, which mixes those of different memories.":
         np.array([
             answer_of(brain, seen, memory)[0]
             for memory in memories.reshape(2, many, -1).swapaxes(0, 1)
@@ -1204,30 +1354,33 @@ def wrong_reactions(brain: dict, seen: np.ndarray, memories: np.ndarray) -> dict
         "The actions are added up from memory to memory.": np.cumsum(actions, axis=0),
         "The actions are rounded.": actions.round(),
         "Only the signs of the actions are given.": np.sign(actions),
-        "Each action is a step of the network twice: call `think` once for each memory.": np.array(
+        "Each action comes after two steps of the network, but one step with each memory is asked "
+        "for.": np.array(
             [answer_of(brain, seen, memory)[0] for memory in made_memories]
         ),
     }  # fmt: skip
     return others | slips(
         made,
-        seen={"": seen, "The observation is left out: 0 stands in its place.": 0 * seen},
+        seen={"": seen, "The observation is left out, and 0 stands in its place.": 0 * seen},
         memories={
             "": memories,
-            "Each action has the memory that the network makes, not the one given.": np.array(
+            "Each action is that to the memory which the network makes, not to the given one.":
+            np.array(
                 [answer_of(brain, seen, memory)[1] for memory in memories]
             ),
-            "The outputs of the memory are left out: only its cells are used.":
+            "The outputs of each memory are replaced by 0.":
             memories * [[1], [0]],
-            "The cells of the memory are left out: only its outputs are used.":
+            "The cells of each memory are replaced by 0.":
             memories * [[0], [1]],
             "The two rows of a memory are exchanged.": memories[:, ::-1],
-            "All actions have the first memory.": np.repeat(memories[:1], many, axis=0),
-            "All actions have the last memory.": np.repeat(memories[-1:], many, axis=0),
-            "All actions have the mean of the memories.": np.repeat(
+            "All actions are those to the first memory.": np.repeat(memories[:1], many, axis=0),
+            "All actions are those to the last memory.": np.repeat(memories[-1:], many, axis=0),
+            "All actions are those to the mean of the memories.": np.repeat(
                 memories.mean(axis=0)[None], many, axis=0
             ),
-            "The memories are left out: all are 0.": 0 * memories,
+            "All memories are replaced by 0.": 0 * memories,
             "The actions stand in the opposite order.": memories[::-1],
         },
-        hand_on={"": False, "The new memory is handed on: each has its own.": True},
+        hand_on={"": False, "The new memory is handed on to the next reaction, but each should use "
+        "the memory given for it.": True},
     )  # fmt: skip

@@ -162,50 +162,64 @@ def lived(brain: dict, start, cylinder, seed: int, way, maxsteps: int, slip: str
 
 
 SLIPS = {
-    "no memory": "`think` is given an empty memory in each step, not what is remembered.",
-    "no cells": "`think` is given memories without cells.",
-    "no outputs": "`think` is given memories without outputs.",
-    "rows": "The two rows of the memory are exchanged before `think` gets it.",
+    "no memory": "`think` is given an empty memory in each step, not what `remember` returned.",
+    "no cells": "`think` is given memories whose cells are 0, not the whole memory.",
+    "no outputs": "`think` is given memories whose outputs are 0, not the whole memory.",
+    "rows": "`think` is given the memory with its two rows exchanged.",
     "blind": "`think` is given zeros instead of the observation.",
-    "think again": "The action comes from a second call of `think`, with the new memory.",
-    "think twice": "`think` is called twice in each step, each time with the memory before it.",
-    "late": "The wheels do in each step what the network answered in the step before.",
-    "half": "The wheels get half of the action.",
+    "think again": "The action is that of `think` with the memory after the step, not with that "
+    "before it.",
+    "think twice": "The network makes two steps, one after the other, in each step of the arena, "
+    "but should make one.",
+    "late": "The wheels do in each step the action of the step before, not that of this step.",
+    "half": "The wheels get half of the action, but should get the whole.",
     "wheels": "The two wheels are exchanged when the action is set.",
-    "sign": "The wheels get only the sign of the action.",
-    "forwards": "The wheels get 0 where the action is below 0: they may roll backwards.",
-    "amount": "The wheels get the amount of the action: they may roll backwards.",
-    "0 to 1": "The wheels get numbers from 0 to 1: the action lies between -1 and 1.",
-    "back": "The wheels get the action with the wrong sign.",
-    "still": "The wheels never get an action: it is 0 in each step.",
-    "two steps": "Two steps of the arena are made in each pass, and only the last one is recorded.",
-    "two rewards": "Two steps of the arena are made in each pass, and their rewards added.",
-    "from 1": "`remember` is told that the first step is number 1: count from 0.",
-    "step 0": "`remember` is told that each step is number 0.",
+    "sign": "The wheels get only the sign of the action, but should get the action itself.",
+    "forwards": "The wheels get 0 where the action is negative, but they should roll backwards "
+    "then.",
+    "amount": "The wheels get the absolute value of the action, but should roll backwards where it "
+    "is negative.",
+    "0 to 1": "The wheels get numbers from 0 to 1, but should get the action, from -1 to 1.",
+    "back": "The wheels get the action with the opposite sign.",
+    "still": "The wheels never get an action and stand still, but should do that of `think`.",
+    "two steps": "Two steps of the arena are made with each action, and only the second one is "
+    "recorded, but there should be one.",
+    "two rewards": "Two steps of the arena are made with each action, and their rewards are added, "
+    "but there should be one.",
+    "from 1": "`remember` is told that the first step is number 1, but it should be number 0.",
+    "step 0": "`remember` is told in each step that its number is 0, not its own number.",
     "backwards": "`remember` is told how many steps are left, not the number of the step.",
-    "exchanged": "`remember` gets the memory after the step first, then that before it: the order "
-    "is before, after.",
-    "after twice": "`remember` gets the memory after the step twice: it needs the one before, too.",
-    "before twice": "`remember` gets the memory before the step twice, but needs that after it.",
-    "begun": "`remember` gets the memory of the episode's beginning as `before` in each step.",
-    "earlier": "`remember` gets the memory before the last step as `before`, not that before this "
-    "one.",
-    "made": "`remember` gets as `before` what `think` made in the last step: it needs what "
-    "`remember` returned there.",
-    "not asked": "What `remember` returns is not used.",
-    "found": "The episode ends with the first reward here, but is to go on.",
-    "lost": "The episode ends with a step without a reward here, but is to go on.",
+    "exchanged": "`remember` gets the memory after the step first and that before it second, but "
+    "should get that before it first.",
+    "after twice": "`remember` gets the memory after the step twice, but should get the one before "
+    "as `before`.",
+    "before twice": "`remember` gets the memory before the step twice, but should get the one "
+    "after it as `after`.",
+    "begun": "`remember` gets the memory at the beginning of the episode as `before` in each step, "
+    "not that before this step.",
+    "earlier": "`remember` gets as `before` the memory before the previous step, not that before "
+    "this one.",
+    "made": "`remember` gets as `before` what `think` returned in the previous step, but should "
+    "get what `remember` returned there.",
+    "not asked": "What `remember` returns is not used, but should be the memory of the next step.",
+    "found": "The episode ends with the first reward, but should go on to maxsteps or a collision.",
+    "lost": "The episode ends with a step without a reward, but should go on to maxsteps or a "
+    "collision.",
     "500": "The episode lasts up to 500 steps, whatever maxsteps is.",
-    "seed + 1": "The seed is one more than the one that is given.",
-    "ones": "The memory begins with ones, not with zeros.",
+    "seed + 1": "The arena is reset with `seed + 1`, but should be reset with `seed`.",
+    "ones": "The memory begins with ones, but should begin with zeros.",
     "heading 0": "The robot starts with the heading 0, not with that of the start.",
-    "degrees": "The heading of the start is turned into degrees: it is in rad, as the arena's.",
-    "radians": "The heading of the start is taken for degrees: it is in rad, as the arena's.",
+    "degrees": "The heading of the start is turned into degrees, but the arena's headings are in "
+    "radians, too.",
+    "radians": "The heading of the start is taken for degrees, but it is in radians, as are the "
+    "arena's.",
     "x and y": "x and y of the start are exchanged.",
     "cylinder y, x": "x and y of the cylinder are exchanged.",
-    "cylinder": "The cylinder stays where the seed has put it.",
-    "reset last": "Robot and cylinder are where the seed has put them: reset, then place them.",
-    "sense": "The first observation is not renewed after robot and cylinder are placed.",
+    "cylinder": "The cylinder stays where the seed has put it, but should be at the given place.",
+    "reset last": "Robot and cylinder are where the seed has put them, but should be at the given "
+    "places.",
+    "sense": "The first observation is that of the places before robot and cylinder were moved, "
+    "but should be renewed afterwards.",
 }
 """What mistakes make of an episode: slip of `lived` -> sentence."""
 
@@ -239,27 +253,35 @@ def wrong_parts(made: Callable, right: dict, name: str, many: int | None) -> dic
     memories, last = right["memories"], len(right["rewards"])
     more = {
         "poses": {
-            "The pose before each step is kept, but not the last one.": right["poses"][:-1],
-            "The place is kept, but not the heading.": right["poses"][:, :2],
+            "The pose after the last step is missing.": right["poses"][:-1],
+            "The places are recorded, but not the headings.": right["poses"][:, :2],
         },
         "memories": {
-            "The cells are kept, but not the outputs.": memories[:, 0],
-            "The memory before the step is kept twice at the beginning.": np.concatenate(
+            "The cells are recorded, but not the outputs.": memories[:, 0],
+            "The memories come one step too late, the first one twice.": np.concatenate(
                 [memories[:1], memories[:-1]]
             ),
         },
         "actions": {
-            "The action of the step before is kept.": np.concatenate(
+            "The action of the step before is recorded, not that of the step.": np.concatenate(
                 [np.zeros((1, 2)), right["actions"][:-1]]
             ),
         },
         "rewards": {
-            "The rewards are added up so far.": np.cumsum(right["rewards"]),
-            "The rewards are added up: each step has its own.": right["rewards"].sum(),
-            "The mean reward so far is kept.": np.cumsum(right["rewards"]) / np.arange(1, last + 1),
-            "These are the rewards of the steps before: a 0 stands first, and the last one is "
-            "missing.": np.append(0, right["rewards"][:-1]),
-            "A first reward of 0 stands in front.": np.append(0, right["rewards"]),
+            "The sum of the rewards so far is recorded, not the reward of each step.": np.cumsum(
+                right["rewards"]
+            ),
+            "The rewards are added up, but the reward of each step is asked for.": right[
+                "rewards"
+            ].sum(),
+            "The mean reward so far is recorded, not the reward of each step.": np.cumsum(
+                right["rewards"]
+            )
+            / np.arange(1, last + 1),
+            "The rewards come one step too late, a 0 first, without the last one.": np.append(
+                0, right["rewards"][:-1]
+            ),
+            "A 0 too much stands before the rewards.": np.append(0, right["rewards"]),
         },
     }.get(name, {})
     return {text: values[:many] if np.ndim(values) else values
@@ -298,7 +320,7 @@ def brains(rng: np.random.Generator):
     for k, gate in enumerate(GATES):
         gates = np.zeros_like(full["gates"])
         gates[k] = rng.normal(size=gates[k].shape)
-        yield f"of the gates, only {gate} has weights", {**full, "gates": gates}
+        yield f"of the four gates, only {gate} has weights other than 0", {**full, "gates": gates}
     for which in range(3):
         yield f"variation {which + 1} of an evolved robot", weights(evolved(rng, which))
 
@@ -316,16 +338,17 @@ def one_step(student: Student):
         said = f"think(brain, observation, memory) ({what})"
         expect(
             isinstance(answer, (list, tuple)) and len(answer) == 2,
-            f"{said} must return two things: the action, and the new memory.",
+            f"{said} should return two things, the action and the new memory.",
         )
         shapes = [np.shape(each) if isinstance(each, np.ndarray) else () for each in answer]
         expect(
             shapes != [(2, UNITS), (2,)],
-            f"{said} returned the new memory first: the action comes first, then the new memory.",
+            f"{said} returned an array of shape (2, 10) first, but the action should come first, "
+            "then the new memory.",
         )
         expect(
             shapes[1] != (UNITS,),
-            f"{said} returned one row as the new memory: it has two, the cells and the outputs.",
+            f"{said} returned one row as the new memory, but it should have two: cells, outputs.",
         )
         action, after = answer_of(brain, observation, kept)
         new = expect_array(f"{said}: new memory", answer[1], (2, UNITS))
@@ -354,7 +377,12 @@ def like_the_tools_network(student: Student):
         expected.append(net.step().copy())
         memories.append(answer_of(brain, observation, memories[-1])[1])
     expect_close(f"{said}: actions", answer[0], expected, 1e-4)
-    expect_close(f"{said}: memories (the given ones stay as they are)", answer[1], memories, 1e-4)
+    expect_close(
+        f"{said}: memories (the first is the given one, which should stay 0)",
+        answer[1],
+        memories,
+        1e-4,
+    )
 
 
 # ------------------------------------------------------------------- 6.2
@@ -376,11 +404,13 @@ def recorded(module, brain, start, cylinder, seed, way, maxsteps):
 
 
 CAUSES = {
-    "poses": "where the robot is before step {t}",
-    "observations": "what the arena senses then, in step {t}",
-    "memories": "what remember returned in the step before, or 0 at the beginning",
-    "actions": "what think answers to these in step {t}",
-    "rewards": "what arena.step() returned in step {t}",
+    "poses": "the robot's pose before step {t}, to which the actions of the steps before lead",
+    "observations": "what the robot senses before step {t}, with cylinder, start and seed as they "
+    "are given",
+    "memories": "0 at the beginning, and later what remember(k, before, after) returns with the "
+    "number k of the step before, counted from 0",
+    "actions": "the action that think returns for the observation and the memory of step {t}",
+    "rewards": "what arena.step() returns if the wheels do the action of step {t}",
 }
 """What an episode records, in the order in which one thing follows from the other."""
 
@@ -411,14 +441,14 @@ def compare(student: Student, genotype: np.ndarray, where: tuple, seed: int, way
     for step, name, got in sorted(apart, key=lambda each: each[0]):
         what = CAUSES[name].format(t=step)
         if step < (many := min(len(got), len(expected[name]))):
-            what = f" (all that comes before is right; here it should be {what})"
+            what = f" (all that comes before is right; the first wrong entry should be {what})"
             made = partial(wrong_parts, wrong, expected, name, many)
             expect_close(f"{said}: {name}{what}", got[:many], expected[name][:many], 1e-3, made)
         steps = len(expected["rewards"])
         ends = "with maxsteps" if steps == maxsteps else "with a collision"
-        what = f" (right as far as it goes; the episode ends {ends}, after {steps} steps"
+        what = f" (only its length is wrong; the episode should end {ends}, after {steps} steps"
         if (own := len(answer["rewards"])) not in (steps, maxsteps):
-            what += f"; yours has {own}, though neither maxsteps nor a collision ends it there"
+            what += f"; the number of your rewards is {own}"
         what += ")"
         made = partial(wrong_parts, wrong, expected, name, None)
         expect_close(f"{said}: {name}{what}", got, expected[name], 1e-3, made)
@@ -462,7 +492,7 @@ def lasts_longer_than_500_steps(student: Student):
     answer = student.run(recorded, brain, start, cylinder, seed, "keep", 520, said=said)
     (rewards,) = expect_fields(said, answer, "rewards")
     steps = len(rewards) if isinstance(rewards, (list, np.ndarray)) else 0
-    expect(steps != 500, f"{said} ends after 500 steps, but it may last for 520.")
+    expect(steps != 500, f"{said} ended after 500 steps, but maxsteps allows 520.")
 
 
 # ------------------------------------------------------------------- 6.3
@@ -470,10 +500,12 @@ starts = exercise.task("6.3", "A grid of starts")
 
 
 GRID = (
-    "x takes {places} evenly spaced values from 150 to 250, with both ends; it changes faster "
-    "than y.",
-    "y takes {places} evenly spaced values from 270 to 350, with both ends; it changes slowest.",
-    "{headings} headings divide the whole turn evenly, from 0; the heading changes fastest.",
+    "x should take {places} evenly spaced values from 150 to 250, both ends included, and should "
+    "change faster than y.",
+    "y should take {places} evenly spaced values from 270 to 350, both ends included, and should "
+    "change slowest.",
+    "The headings should be the multiples of 2 pi / {headings} from 0 on, without 2 pi, and should "
+    "change fastest.",
 )
 """What the text says about the columns of a grid."""
 
@@ -552,10 +584,10 @@ def compare_described(student: Student, walk: tuple, names: tuple) -> None:
     said = f"describe(poses, rewards, cylinder) ({steps} steps; {which} near the cylinder): "
     for name, value in zip(names, expect_fields(student.said, answer, *names), strict=True):
         made = partial(spoiled_described, walk, name, expected[name])
-        why = f"{name}: {MEANT[name][0].lower()}{MEANT[name][1:]}"
+        why = f"{name} should be {MEANT[name][0].lower()}{MEANT[name][1:]}"
         if name in expected["steps"] and steps <= FEW_STEPS:
             each = np.round(np.array(expected["steps"][name], dtype=float), 3).tolist()
-            why += f" The values of these steps are {each}."
+            why += f" The values of these steps should be {each}."
         expect_close(said + name, value, expected[name], 1e-4, made, lambda why=why: why)
 
 
@@ -612,7 +644,7 @@ def one_scale(student: Student):
         made, why = partial(spoiled_scales, table, expected), partial(scaled, answer, table)
         expect_close("standardise(table)", answer, expected, 1e-5, made, why)
     table[:, 2], expected[:, 2] = 3.5, 0.0
-    said = "standardise(table), one column all alike"
+    said = "standardise(table), one column all 3.5 (it should become 0)"
     expect_close(said, student.call("standardise", table), expected, 1e-5)
 
 
@@ -623,9 +655,10 @@ def equal_but_for_rounding(student: Student):
     answer = student.call("standardise", table)
     expected = table - table.mean(axis=0)
     expected[:, [0, 2]] /= table.std(axis=0)[[0, 2]]
+    expected[:, 1] = 0
     said = (
-        "standardise(table), one column all 3.7 (of which NumPy's standard deviation is "
-        f"{table.std(axis=0)[1]:.1g}, by rounding)"
+        "standardise(table), one column all 3.7 (it should become 0; NumPy's standard deviation "
+        f"of it is not exactly 0, but {table.std(axis=0)[1]:.1g}, by rounding)"
     )
     expect_close(said, answer, expected, 1e-5)
 
@@ -639,27 +672,29 @@ def compare_grouped(student: Student, table: np.ndarray, threshold: float, which
     ):
         expect(
             False,
-            f"{said} returned lists of robots: the number of the family of each robot is asked "
-            "for, in the order of the robots.",
+            f"{said} returned lists inside a list, but one number for each robot is asked for, "
+            "that of its family, in the order of the robots.",
         )
     many = np.size(answer) if isinstance(answer, (list, tuple, np.ndarray)) else len(table)
     expect(
         many == len(table),
-        f"{said} returned {many} numbers, but the family of each of the {len(table)} robots is "
-        "asked for.",
+        f"{said} returned an answer of size {many}, but the family of each of the {len(table)} "
+        "robots is asked for.",
     )
     got = expect_array(said, answer, (len(table),))
     order = "The families are right, but not numbered from 0 in the order of their first robots."
     same = numbered(got.tolist()) == expected
-    made = {order: got} if same else {"All robots are in one family here.": 0 * got}
+    made = (
+        {order: got} if same else {"All robots are in one family, but they should not be.": 0 * got}
+    )
     if not (which or same):  # what differs at the very threshold shows little about the cause
         made = partial(wrong_families, table, threshold)
 
     def why(robot: int) -> str:
         told: list[str] = []
         grouped(table, threshold, told)
-        ends = f"Merging ends when no two are nearer than {threshold:.3g}."
-        return f"In this order: {'; then '.join(told)}. {ends}" if len(table) <= 6 else ""
+        ends = f"Merging should end when no two are nearer than {threshold:.3g}."
+        return f"In the right order: {'; then '.join(told)}. {ends}" if len(table) <= 6 else ""
 
     expect_close(said, answer, expected, mistakes=made, why=why)
 
@@ -706,7 +741,7 @@ def remembering(module, since, first, afters):
         for step, after in enumerate(afters):
             memory = way(step, memory, after.copy())
             if memory is None:
-                raise TypeError("None came back, but the memory is to be returned")
+                raise TypeError("None came back, but the memory should be returned")
             kept.append(numpy.array(memory))
         return kept
 
@@ -732,8 +767,8 @@ def ways_to_remember(student: Student):
             way = (f"freeze({since})", f"freeze({since + 1})", "forget")[which]
             before = first
             for step, (after, got) in enumerate(zip(-(episode + 1) * afters, found, strict=True)):
-                what = f"in episode {episode + 1}, whose memory after step k holds "
-                what += f"-{'2 (k + 1)' if episode else '(k + 1)'} in its cells"
+                what = f"in episode {episode + 1} of 2 (where all cells of `after` in step k are "
+                what += f"-{'2 (k + 1)' if episode else '(k + 1)'})"
                 before = after if which < 2 and step < since + which else before
                 wanted = 0 * first if which == 2 else before
                 said = f"{way}(step={step}, before, after) {what}"
@@ -773,31 +808,37 @@ def wrong_means(case: tuple, ways: dict, name: str, maxsteps: int) -> dict:
     all_ways = {key: returns_of(case, other, maxsteps) for key, other in ways.items()}
     steps = [outcome(case, i, seed + i, way, maxsteps)[1] for i in range(many)]
     other_seeds = {
-        "All episodes have the same seed.": [seed] * many,
-        "The first episode has the seed `seed`: counting begins at 1 here.":
+        "All episodes have the same seed, but that from starts[i] should have `seed + i`.":
+        [seed] * many,
+        "The seeds count from `seed + 1` on, but the first episode should have `seed`.":
         range(seed + 1, seed + 1 + many),
-        "The seed of an episode is its place: `seed` is left out.": range(many),
-        "The seeds are in the opposite order.": range(seed + many - 1, seed - 1, -1),
-        "The seeds go on from one kind of memory to the next, but all three are to have the same.":
+        "The episode from starts[i] has the seed i, but should have `seed + i`.": range(many),
+        "The seeds are in the opposite order, but should grow from `seed` on.":
+        range(seed + many - 1, seed - 1, -1),
+        "The seeds go on from one kind of memory to the next, but all three should have the same.":
         range(seed + many * list(ways).index(name), seed + many * (1 + list(ways).index(name))),
     }  # fmt: skip
     found = {
-        "The returns are added up.": np.sum(each),
-        "Only the first start counts.": each[0],
-        "Only the last start counts.": each[-1],
-        "The best return is taken.": np.max(each),
-        "The worst return is taken.": np.min(each),
-        "The median of the returns is taken.": np.median(each),
-        "These are the steps of the episodes, not their returns.": np.mean(steps),
+        "This is the sum of the returns, but their mean is asked for.": np.sum(each),
+        "This is the return from the first start, not the mean over all starts.": each[0],
+        "This is the return from the last start, not the mean over all starts.": each[-1],
+        "The best return is taken, not the mean.": np.max(each),
+        "The worst return is taken, not the mean.": np.min(each),
+        "The median of the returns is taken, not the mean.": np.median(each),
+        "This is the mean number of steps of the episodes, not the mean of their returns.":
+        np.mean(steps),
         "This is the mean reward of a step, not the return.": np.mean(np.divide(each, steps)),
         "This is the reward of all steps divided by all steps, not the return.":
         np.sum(each) / np.sum(steps),
-        "This is the share of maxsteps, not the return.": np.mean(each) / maxsteps,
-        "The mean is divided by that of keep here.":
+        "The mean is divided by maxsteps, but should be the mean return itself.":
+        np.mean(each) / maxsteps,
+        "The mean is divided by that of keep, but should be the mean return itself.":
         np.mean(each) / max(np.mean(all_ways["keep"]), 1e-9),
-        "The mean is subtracted from that of keep.": np.mean(all_ways["keep"]) - np.mean(each),
-        "That of keep is subtracted from the mean.": np.mean(each) - np.mean(all_ways["keep"]),
-        "The sum is divided by one more than the starts.": np.sum(each) / (many + 1),
+        "The mean is subtracted from that of keep, but should be the mean return itself.":
+        np.mean(all_ways["keep"]) - np.mean(each),
+        "The mean of keep is subtracted from this mean, but should not be.":
+        np.mean(each) - np.mean(all_ways["keep"]),
+        "The sum is divided by one more than the number of starts.": np.sum(each) / (many + 1),
         "The returns of all starts are given, but their mean is asked for.": np.array(each),
         "This is the standard deviation of the returns, not the mean.": np.std(each),
     } | {
@@ -810,15 +851,17 @@ def wrong_means(case: tuple, ways: dict, name: str, maxsteps: int) -> dict:
         "The first start is left out.": np.mean(each[1:] or [0.0]),
     }  # fmt: skip
     shorter = returns_of(case, way, since)
-    found["`since` is handed on as maxsteps: the episodes are too short."] = np.mean(shorter)
+    found["The episodes end after `since` steps, but should last up to maxsteps."] = np.mean(
+        shorter
+    )
     if many == 1:
-        found["maxsteps is not handed on: the episodes last up to 500 steps."] = np.mean(
+        found["The episodes last up to 500 steps, but should last up to maxsteps."] = np.mean(
             returns_of(case, way, 500)
         )
     if name == "forget":
         later = [outcome(case, i, seed + i, f"forget {since}", maxsteps)[0] for i in range(many)]
         found[
-            "The memory is emptied from step `since` on only, but `forget` empties it in each step."
+            "The memory is emptied from step `since` on only, but should be emptied in each step."
         ] = np.mean(later)
     return found
 
@@ -832,7 +875,7 @@ def what_memory_is_worth(student: Student):
         ways = {"keep": "keep", "forget": "forget", "freeze": since}
         for name, value in zip(ways, expect_fields(student.said, answer, *ways), strict=True):
             each = returns_of(case, ways[name], maxsteps)
-            why = f"The returns of these episodes should be {each}, with this mean."
+            why = f"The list of returns should be {each}, and its mean is asked for."
             mistakes = partial(wrong_means, case, ways, name, maxsteps)
             said = f"memory_test(brain, {many} starts, {cylinder.tolist()}, {seed}, since={since}, "
             said += f"maxsteps={maxsteps}): {name}"
@@ -846,7 +889,7 @@ same = exercise.task("6.7", "The same sight, another mind", needs=("6.1",))
 def spoiled_reactions(brain: dict, seen: np.ndarray, memories: np.ndarray, right: list) -> dict:
     changed = {
         "The observation is divided by the number of memories.": seen / len(memories),
-        "The observation is turned around.": seen[::-1],
+        "The observation is taken in the opposite order.": seen[::-1],
         "The observation is put through tanh first.": np.tanh(seen),
         "The observation is rounded first.": seen.round(),
         "The mean of the observation stands in each place.": 0 * seen + seen.mean(),

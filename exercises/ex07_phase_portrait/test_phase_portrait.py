@@ -41,13 +41,15 @@ def expect_states(said: str, value, expected: np.ndarray, tolerance: float = 1e-
     angles, velocities = states.T
     expect(
         bool(np.all(np.abs(angles) < np.pi + 1e-6)),
-        f"{said}: the angles must be in [-pi, pi], but one is "
+        f"{said}: the angles should be in [-pi, pi], but one is "
         f"{angles[np.abs(angles).argmax()]:.3f}.",
     )
     off = np.abs(np.sin((angles - expected[:, 0]) / 2)) > tolerance
     if np.any(off):
         i = int(off.argmax())
-        raise Wrong(f"{said}: angle {i} is {angles[i]:.5g}, but should be {expected[i, 0]:.5g}.")
+        raise Wrong(
+            f"{said}: the angle in row {i} is {angles[i]:.5g}, but should be {expected[i, 0]:.5g}."
+        )
     expect_close(f"{said}: velocities", velocities, expected[:, 1], tolerance)
 
 
@@ -67,13 +69,13 @@ def one_observation(student: Student):
         shown = ", ".join(f"{x:.3f}" for x in observation)
         cosine, sine = observation[:2]
         mistakes = {
-            "Cosine and sine are exchanged: see the order in np.arctan2.": [
+            "Cosine and sine are exchanged: np.arctan2 takes the sine first.": [
                 np.arctan2(cosine, sine), velocity
             ],
-            "This is arcsin(sine), which knows half of the circle only: see np.arctan2.": [
+            "The angle is arcsin(sine), always in [-pi / 2, pi / 2]: see np.arctan2.": [
                 np.arcsin(sine), velocity
             ],
-            "This is arctan(sine / cosine), which knows half of the circle only: see np.arctan2.": [
+            "The angle is arctan(sine / cosine), always in [-pi / 2, pi / 2]: see np.arctan2.": [
                 np.arctan(sine / cosine), velocity
             ],
         }  # fmt: skip
@@ -84,7 +86,9 @@ def one_observation(student: Student):
         answer[0] = np.pi if abs(answer[0] + np.pi) < 1e-6 else answer[0]  # both ends are pi
         mistakes = {}
         if angle == np.pi:
-            text = "Straight down the angle is pi, but 0 came back (by a sign of 0, for example)."
+            text = (
+                "Straight down the angle is 0, but should be pi or -pi (note that np.sign(0) is 0)."
+            )
             mistakes[text] = [0.0, seen[2]]
         expect_close(f"to_state({seen})", answer, [angle, seen[2]], 1e-5, mistakes)
 
@@ -109,7 +113,7 @@ def recorded(module, gains, seed, steps):
 
     def controller(seen):
         if numpy.shape(seen) != (3,):
-            text = f"the controller was given {seen}, but an observation has the shape (3,)"
+            text = f"the controller was given {seen}, but should be given an array of shape (3,)"
             raise ValueError(text)
         asked.append(1)
         return numpy.clip([gains @ seen], -2, 2)
@@ -140,13 +144,14 @@ def compare_recording(student: Student, index: int, steps: int, seed: int | None
     expect(
         many <= len(wanted) or len(wanted) > steps,
         f"{student.said} returned {many} states, but the environment ends the episode after "
-        f"{len(wanted) - 1} steps (truncated), which makes {len(wanted)} states.",
+        f"{len(wanted) - 1} steps (truncated), so there should be {len(wanted)} states.",
     )
     expect_states(student.said, answer, wanted, 1e-3)  # torques in float32 too
     expect(
         len(wanted) - 1 <= asked <= len(wanted),  # a generator may ask once more at the end
-        f"{student.said} asked the controller {asked} times for {len(wanted) - 1} steps, but it is "
-        "to be asked once in each step: it may remember what it has seen.",
+        f"{student.said} asked the controller {asked} time{'s' * (asked != 1)} for "
+        f"{len(wanted) - 1} step{'s' * (len(wanted) > 2)}, but it should be asked once in each "
+        "step (a controller may remember what it has seen).",
     )
 
 
@@ -179,34 +184,39 @@ def compare_arrows(student: Student, before: np.ndarray, change: np.ndarray) -> 
     if np.any(off):
         i = int(off.argmax())
         mistakes = {
-            "Where the arrows end is returned, instead of how far they go.": np.hstack(
+            "The last columns hold where the arrows end, but should hold the changes.": np.hstack(
                 [before, after]
             ),
-            "The arrows go backwards: it is after minus before.": np.hstack([before, -change]),
+            "The arrows go backwards: the changes should be after minus before.": np.hstack(
+                [before, -change]
+            ),
         }
         gap = (after - before)[:, 0]
         turns = {
-            "A change beyond half a turn becomes 2 pi minus its amount, but it has a sign, too.": (
+            "A change of the angle beyond -pi or pi becomes 2 pi minus its amount, but for one "
+            "above pi the short way around is negative.": (
                 np.where(np.abs(gap) > np.pi, 2 * np.pi - np.abs(gap), gap)
             ),
-            "A change beyond half a turn becomes its amount minus 2 pi, whatever its sign.": (
+            "A change of the angle beyond -pi or pi becomes its amount minus 2 pi, but for one "
+            "below -pi the short way around is positive.": (
                 np.where(np.abs(gap) > np.pi, np.abs(gap) - 2 * np.pi, gap)
             ),
-            "The changes of the angle lie between 0 and 2 pi, but the short way is between -pi and "
+            "The changes of the angle lie between 0 and 2 pi, but should lie between -pi and "
             "pi.": gap % (2 * np.pi),
-            "The changes of the angle leap by whole turns: take the short way around.": gap,
-            "The changes of the angle lie between -pi / 2 and pi / 2, but a whole turn is 2 pi.": (
-                (gap + np.pi / 2) % np.pi - np.pi / 2
+            "Some changes of the angle are off by whole turns of 2 pi: take the short way.": gap,
+            "The changes of the angle lie between -pi / 2 and pi / 2, as if a whole turn were pi, "
+            "but a whole turn is 2 pi.": ((gap + np.pi / 2) % np.pi - np.pi / 2),
+            "Changes of the angle beyond -pi and pi are cut off there, but the short way around is "
+            "asked for.": (gap.clip(-np.pi, np.pi)),
+            "The changes of the angle are never negative, but some should be.": np.abs(
+                change[:, 0]
             ),
-            "Changes beyond -pi and pi are cut off there, but the short way around goes on.": (
-                gap.clip(-np.pi, np.pi)
+            "Changes of the angle below -pi stay as they are (as with np.fmod, unlike %), but "
+            "should take the short way around, as those above pi do.": np.where(
+                gap > np.pi, change[:, 0], gap
             ),
-            "The changes of the angle have lost their sign.": np.abs(change[:, 0]),
-            "Only changes above pi take the short way, not those below -pi (with np.fmod, for "
-            "example).": np.where(gap > np.pi, change[:, 0], gap),
-            "Only changes below -pi take the short way, not those above pi.": np.where(
-                gap < -np.pi, change[:, 0], gap
-            ),
+            "Changes of the angle above pi stay as they are, but should take the short way around, "
+            "as those below -pi do.": np.where(gap < -np.pi, change[:, 0], gap),
         }
         mistakes |= {
             text: np.hstack([before, made[:, None], change[:, 1:]]) for text, made in turns.items()
@@ -250,7 +260,7 @@ def states_stay_as_they_are(student: Student):
     expect_array(student.said, answer[0], (19, 4))
     expect(
         answer[1] is True,
-        f"{student.said} changed the states that it was given: make new arrays.",
+        f"{student.said} changed the states that it was given, but they should stay as they are.",
     )
 
 
@@ -270,11 +280,19 @@ def grid_of_states(student: Student):
         mistakes = {
             text: [[angle, velocity] for velocity in some for angle in others]
             for text, others, some in (
-                ("The grid leaves out its upper ends: pi and 8 belong to it.", short, low),
-                ("The angles leave out their upper end: pi belongs to them.", short, velocities),
-                ("The velocities leave out their upper end: 8 belongs to them.", angles, low),
-                ("The angles go from 0 to 2 pi, not from -pi to pi.", turned, velocities),
-                ("The angles go from -180 to 180, in degrees.", np.degrees(angles), velocities),
+                ("The grid leaves out its upper ends, but pi and 8 should be in it.", short, low),
+                (
+                    "The angles leave out their upper end, but should end with pi.",
+                    short,
+                    velocities,
+                ),
+                ("The velocities leave out their upper end, but should end with 8.", angles, low),
+                ("The angles go from 0 to 2 pi, but should go from -pi to pi.", turned, velocities),
+                (
+                    "The angles go from -180 to 180 (degrees), but should go from -pi to pi.",
+                    np.degrees(angles),
+                    velocities,
+                ),
             )
         }
         expect_close(student.said, answer, expected, 1e-6, mistakes)
@@ -287,7 +305,7 @@ def stepped(module, gains, states, strongest=2):
 
     def controller(seen):
         if numpy.shape(seen) != (3,):
-            text = f"the controller was given {seen}, but an observation has the shape (3,)"
+            text = f"the controller was given {seen}, but should be given an array of shape (3,)"
             raise ValueError(text)
         return numpy.clip([gains @ seen], -strongest, strongest)
 
@@ -321,10 +339,13 @@ def wrongly_seen(student: Student, states: np.ndarray) -> str:
     if not wrong.any():
         return ""
     i = int(wrong.argmax())
-    text = f"In state {i + 1} the controller was given {show(seen[i])}"
+    text = f"For states[{i + 1}] the controller was given {show(seen[i])}"
     if np.allclose(seen, observed(after)[:-1], atol=1e-4):
-        return f"{text}: this is what the step before led to, not the state that was put in."
-    return f"{text}, but the observation of this state is {show(wanted[i])}."
+        return (
+            f"{text}. This is what the step before led to, but the observation that belongs to "
+            "this state is asked for: compute it from angle and velocity."
+        )
+    return f"{text}, but should be given {show(wanted[i])}, the observation of this state."
 
 
 def one_step(gains: np.ndarray, states: np.ndarray) -> np.ndarray:
@@ -362,7 +383,7 @@ def pendulum_with_controller(student: Student):
             student.run(stepped, gains, states, said=said)  # for a second look at this call
             raise
     strong, states = np.array([3.0, 8.0, 2.0]), random_states(19, 20)
-    said = "next_states(controller, states), a controller that asks the motor for up to 25"
+    said = "next_states(controller, states), a controller that asks for torques up to 25"
     answer = student.run(stepped, strong, states, 25, said=said)
     expect_states(said, answer, one_step(strong, states))
 
@@ -409,8 +430,8 @@ def stages_of(student: Student, index: int, generations: int, every: int, least:
     )  # fmt: skip
     expect(
         asked == list(range(generations)),
-        f"{student.said} called evaluate for the generations {show(asked)}, but once for each of "
-        f"0 to {generations - 1} is asked for.",
+        f"{student.said} called evaluate for the generations {show(asked)}, but should call it "
+        f"once for each generation, in order (the last one is number {generations - 1}).",
     )
     expect_fields(student.said, answer, "generations", "parameters", "history")
 
@@ -429,18 +450,27 @@ def stages_of(student: Student, index: int, generations: int, every: int, least:
     best, history, numbers, candidates = run()
     record = [int(np.argmax(history[: generation + 1])) for generation in range(generations)]
     made = {
-        "The algorithm uses the same array again: keep a copy of a candidate (.copy()).":
+        "These are candidates of the last generation: the algorithm uses the same array each time, "
+        "so keep a copy of a candidate (.copy()).":
         candidates[numbers],
-        "It is the best candidate so far, but that of the generation is asked for.":
+        "Kept is the best candidate so far, but the best one of the generation alone is asked for.":
         np.array(best)[record],
     }  # fmt: skip
     others = {
-        "The algorithm is told minus the fitness.": run(np.negative),
-        "The algorithm is told nothing, or only zeros.": run(np.zeros_like),
-        "The algorithm is told sorted numbers: each belongs to its candidate.": run(np.sort),
+        "The algorithm is told minus the fitness, but the fitness itself is asked for.": run(
+            np.negative
+        ),
+        "The algorithm is told nothing (or only zeros), but should be told the fitness.": run(
+            np.zeros_like
+        ),
+        "The algorithm is told the fitness in rising order, but in the order of the candidates is "
+        "asked for.": run(np.sort),
     }
     made |= {text: np.array(other[0]) for text, other in others.items()}
     told = {text: other[1] for text, other in others.items()}
+    told["This is the highest fitness so far, but that of the generation alone is asked for."] = (
+        np.maximum.accumulate(history)
+    )
     return answer, np.array(best), history, made, told
 
 
@@ -458,17 +488,22 @@ def keeps_every_nth_and_the_last(student: Student):
         expected = sorted({*range(0, generations, every), generations - 1})
         last = generations - 1
         mistakes = {
-            "Generations are counted from 1, but the first is number 0 and is kept.": sorted(
+            "The generations kept are every - 1, 2 * every - 1, ... (counted from 1), but should "
+            "be 0, every, 2 * every, ...": sorted(
                 {*range(every - 1, generations, every), last}
             ),
-            "These are the numbers of generations counted from 1, but they count from 0.": [
+            "The numbers of the generations are counted from 1, but should be counted from 0.": [
                 each + 1 for each in expected
             ],
-            "The last generation is kept twice if it is a multiple of every.": [
+            "The last generation is listed twice where its number is a multiple of every, but once "
+            "is asked for.": [
                 *range(0, generations, every), last
             ],
-            "The last generation is left out.": [*range(0, generations, every)],
-            "Generation 0 is left out.": sorted({*range(every, generations, every), last}),
+            "The last generation is left out unless its number is a multiple of every, but should "
+            "always be kept.": [*range(0, generations, every)],
+            "Generation 0 is left out, but should be kept.": sorted(
+                {*range(every, generations, every), last}
+            ),
         }  # fmt: skip
         said = f"{student.said}: generations"
         expect_close(said, answer["generations"], expected, mistakes=mistakes)
@@ -531,20 +566,20 @@ def evolve(student: Student, seed: int, gains: np.ndarray) -> tuple[np.ndarray, 
     for name, row, near in zip(("first", "middle", "last"), parameters, answer[1], strict=True):
         expect(
             np.shape(near) == row.shape and np.allclose(near, row, rtol=1e-5, atol=1e-5),
-            f"{student.said}: the {name} stage was never evaluated: return candidates of your "
-            "evolution as they were.",
+            f"{student.said}: the {name} stage was never evaluated. Return candidates of your "
+            "evolution exactly as they were evaluated.",
         )
     early = expect_array(student.said, answer[2], np.shape(answer[2]))
     begins = [np.isclose(early, row, rtol=1e-5, atol=1e-5).all(axis=1).any() for row in parameters]
     expect(
         bool(begins[0] or not begins[2]),
-        f"{student.said}: the stage of the first evaluations comes last, but the three are asked "
-        "for in the order of the evolution: generation 0 first.",
+        f"{student.said}: the last stage is among the candidates that were evaluated first, and "
+        "the first stage is not, but all should be in the order of the evolution.",
     )
     expect(
         bool(begins[0]),
-        f"{student.said}: the first stage is none of the candidates that were evaluated first: "
-        "return the best of generation 0 of the evolution that leads to the other stages.",
+        f"{student.said}: the first stage is not among the candidates that were evaluated first, "
+        "but should be the best of generation 0 of the evolution that leads to the other stages.",
     )
     return parameters, early
 
@@ -579,10 +614,10 @@ def expect_stages(student: Student, fault, other: bool = False) -> None:
     plain = fault(returns_of(student, np.ones(len(gains)), other))
     expect(not plain, f"{student.said}: {plain}")
     raise Wrong(
-        f"{student.said} is right for the ordinary robot, but not for one whose parameters count "
-        f"with other signs and sizes: {found} To evolution both are the same task. This comes, for "
-        "example, of a stage that was right by luck (chosen by its number, or by few episodes), or "
-        "of an evolution that begins with parameters that were known before."
+        f"{student.said} is right in this point for the ordinary robot, but not for one whose "
+        f"parameters count with other signs and sizes: {found} For an evolution both robots are "
+        "the same task. A possible cause is a stage that is right by luck (chosen by its number, "
+        "or by few episodes), or an evolution that begins with parameters known before."
     )
 
 
@@ -592,7 +627,7 @@ def last_stage_holds_the_pendulum(student: Student):
         told = f"the last stage reaches {returns[2]:.0f} on average over 100 new episodes, but at "
         told += "least -400 is asked for."
         if returns[2] < returns[0] - 100:
-            told += f" The first one reaches {returns[0]:.0f}: the evolution leads downwards."
+            told += f" That is worse than the first one, which reaches {returns[0]:.0f}."
         return "" if returns[2] >= -400 else told
 
     try:
@@ -611,21 +646,21 @@ def seed_decides(student: Student):
     again, _ = evolve(student, seed, gains)
     expect(
         np.array_equal(one, again),
-        f"{student.said} gave other stages when it was called again: everything that is random "
-        "must follow from the seed.",
+        f"{student.said} gave other stages when it was called again, but everything that is random "
+        "should follow from the seed.",
     )
     other, others = stages_for(student, exercise.seed(30) % 100_000, gains)
     shared = (early[:, None] == others[None]).all(axis=2).any(axis=1).mean()
     expect(
         bool(shared < 0.1),
-        f"{student.said} begins with the same candidates as with another seed: what the algorithm "
-        "draws must follow from the seed.",
+        f"{student.said} begins with the same candidates as with another seed ({shared:.0%} of the "
+        "first ones are equal), but what the algorithm draws should follow from the seed.",
     )
     likeness = np.sum(one * other, axis=1) / np.sqrt(np.sum(one**2, 1) * np.sum(other**2, 1))
     expect(
         bool(likeness.max() < 0.8),
-        f"{student.said} gave nearly the same parameters as another seed (correlation "
-        f"{likeness.max():.2f}): they are to be evolved anew from each seed.",
+        f"{student.said} gave at least one stage with nearly the same parameters as another seed "
+        f"(correlation {likeness.max():.2f}), but all should be evolved anew from each seed.",
     )
 
 
@@ -635,18 +670,18 @@ def stages_rise(student: Student):
         first, middle, last = returns
         if first >= -900:
             return (
-                f"the first stage reaches {first:.0f} on average over 100 new episodes; the best "
-                "of generation 0 cannot be that good."
+                f"the first stage reaches {first:.0f} on average over 100 new episodes, but the "
+                "best of generation 0 should be below -900."
             )
         if not first + 100 <= middle <= last - 100:
             told = (
                 f"the stages reach {first:.0f}, {middle:.0f} and {last:.0f} on average over 100 "
-                "new episodes, but the middle one must be 100 above the first and 100 below the "
-                "last one"
+                "new episodes, but the middle one should be at least 100 above the first one and "
+                "at least 100 below the last one"
             )
             if last - first < 200:
-                return f"{told}. The last one is too near to the first one for that."
-            return f"{told}: look for the one whose return is halfway between theirs."
+                return f"{told}. For that, the last one should be at least 200 above the first one."
+            return f"{told}. Look for the one whose return is nearest to halfway between theirs."
         return ""
 
     for other in (True, False):
@@ -703,7 +738,7 @@ def newly_drawn(student: Student, fields: list, paths: list, titles) -> np.ndarr
     file = student.scratch("portraits.png")
     head = file.read_bytes()[:24]
     width, height = (int.from_bytes(head[at : at + 4], "big") for at in (16, 20))
-    expect(head[:8] == b"\x89PNG\r\n\x1a\n", f"{said} wrote a file that is no PNG picture.")
+    expect(head[:8] == b"\x89PNG\r\n\x1a\n", f"{said} wrote a file that is not a PNG picture.")
     expect(
         300 * n <= width <= LARGEST and 300 <= height <= LARGEST,
         f"{said} wrote a picture of {width} x {height} pixels, but at least {300 * n} x 300 "
@@ -712,7 +747,7 @@ def newly_drawn(student: Student, fields: list, paths: list, titles) -> np.ndarr
     try:
         pixels = imread(file)
     except Exception:
-        raise Wrong(f"{said} wrote a damaged picture.") from None
+        raise Wrong(f"{said} wrote a PNG picture that cannot be read.") from None
     if pixels.ndim == 2:
         return np.repeat(pixels[..., None], 3, axis=2)
     opaque = pixels[..., 3:] if pixels.shape[2] == 4 else 1.0
@@ -740,15 +775,13 @@ def places(student: Student, drawings: list[tuple[list, list]]) -> list[tuple[fl
         (height, width), (rows, columns) = different.shape, np.nonzero(different > VISIBLE)
         expect(
             len(rows) > 20,
-            f"{student.said}: other arrows give the same picture: nothing of them is seen. They "
-            f"are "
-            "not drawn, or they lie outside of the axes, for example.",
+            f"{student.said}: with other arrows the picture is nearly the same, so nearly nothing "
+            "of them is seen. Perhaps they are not drawn, or lie outside of the axes.",
         )
         expect(
             len(rows) < 0.2 * height * width,
             f"{student.said}: a few other arrows change {len(rows) / (height * width):.0%} of the "
-            "picture, though axes and panels should stay what they are, and each arrow should be "
-            "as "
+            "picture, but axes and panels should stay as they are, and each arrow should be as "
             "long as its change.",
         )
         found.append((float(np.median(columns)) / width, 1 - float(np.median(rows)) / height))
@@ -772,16 +805,17 @@ def expect_fixed_axes(student: Student, found: list[tuple[float, float]]) -> Non
     states, places = np.array(STATES), np.array(found)
     for name, values, spots in zip(("angles", "velocities"), states.T, places.T, strict=True):
         why = (
-            "Each panel is to show -pi to pi and -8 to 8, whatever is drawn, and each arrow is to "
-            "begin in its state and to end in the next one."
+            "Each panel should show -pi to pi and -8 to 8, whatever is drawn, and each arrow "
+            "should begin in its state and end in the next one."
         )
         if spread(spots[::-1], values[::-1]):
             side = "upwards" if name == "velocities" else "from left to right"
-            why = f"The axis points the other way: the {name} are to grow {side}."
+            why = f"The {name} should grow {side}, but they grow the other way."
         expect(
             spread(spots, values),
             f"{student.said}: arrows at the {name} {', '.join(map(str, values))} were found at "
-            f"{', '.join(f'{100 * x:.0f} %' for x in spots)} of the picture. {why}",
+            f"{', '.join(f'{100 * x:.0f} %' for x in spots)} of the picture, counted from "
+            f"{'the left' if name == 'angles' else 'below'}. {why}",
         )
 
 
@@ -807,37 +841,41 @@ def one_panel_for_each(student: Student):
             rows, _ = np.nonzero(third > VISIBLE)
             expect(
                 len(rows) > 20,
-                f"{student.said}: other arrows in {what}[{k}] give the same picture in the "
-                f"{PLACES[k]} third: nothing of them is seen there.",
+                f"{student.said}: with other arrows in {what}[{k}], the {PLACES[k]} third of the "
+                "picture is nearly the same, so nearly nothing of them is seen there.",
             )
             low, middle, high = np.percentile(rows, [5, 50, 95]) / len(third)
             if high - low >= 0.25:
                 drawing = (three, alone) if what == "paths" else (alone, three)
                 one = np.array_split(difference(pixels_of(student, *drawing), plain), 3, axis=1)
                 layout = panels_otherwise(student, what, plain)
-                why = "Each arrow is as long as its change, in axes from -pi to pi and -8 to 8."
+                why = (
+                    "Each arrow should be as long as its change, in axes from -pi to pi and from "
+                    "-8 to 8."
+                )
                 if (one[0] > VISIBLE).any() or (one[2] > VISIBLE).any():
                     why = (
-                        f"Panel i shows {what}[i] and no other, and its axes go from -pi to pi and "
-                        "from -8 to 8, whatever is drawn."
+                        f"Panel i should show {what}[i] and no other, and its axes should go from "
+                        "-pi to pi and from -8 to 8, whatever is drawn."
                     )
                 raise Wrong(
-                    f"{student.said}: in the {PLACES[k]} third of the picture, the few arrows of "
-                    f"{what}[{k}], all near the velocity {states[k]:g}, cover "
-                    f"{100 * (high - low):.0f} % of the height. {layout or why}"
+                    f"{student.said}: a few other arrows in {what}[{k}], all near the velocity "
+                    f"{states[k]:g}, should change little of the {PLACES[k]} third of the picture, "
+                    f"but the changes cover {100 * (high - low):.0f} % of its height. "
+                    f"{layout or why}"
                 )
             found.append(float(1 - middle))
-        why = f"Panel i shows {what}[i]."
+        why = f"Panel i should show {what}[i]."
         if spread(np.array(found)[::-1], states[::-1]):
-            why = "The axis points the other way: the velocities are to grow upwards."
+            why = "The velocities should grow upwards, but they grow the other way."
         elif found[0] < found[1] < found[2]:  # in the right order, at wrong distances
-            why = "Each panel shows -8 to 8, and each arrow ends in the next state."
+            why = "Each panel should show -8 to 8, and each arrow should end in the next state."
         expect(
             spread(found, states),
             f"{student.said}: {what}[0], {what}[1] and {what}[2] with arrows at the velocities "
             f"{', '.join(map(str, states))} should be in the left, the middle and the right third "
-            f"of the picture, but there the arrows are {', '.join(map('{:.0%}'.format, found))} "
-            f"from below. {why}",
+            f"of the picture, at these velocities, but the arrows there are at "
+            f"{', '.join(map('{:.0%}'.format, found))} of the height, counted from below. {why}",
         )
     limits_stay(student)
     titles_stand_above(student, plain)
@@ -858,9 +896,9 @@ def panels_otherwise(student: Student, what: str, plain: np.ndarray) -> str:
     if abs(x - other_x) > 0.05:
         return ""
     if abs(y - other_y) > 0.4:
-        return "The panels stand one below the other, but one row is asked for."
+        return "The panels stand one below the other, but should stand side by side in one row."
     same = abs(y - other_y) < 0.05
-    return f"{what}[0] and {what}[2] are drawn at the same place." if same else ""
+    return f"{what}[0] and {what}[2] are drawn at one place, not in two panels." if same else ""
 
 
 def limits_stay(student: Student) -> None:
@@ -875,9 +913,9 @@ def limits_stay(student: Student) -> None:
         quarter = third[height // 2 :, : width // 2]
         expect(
             np.sum(quarter > VISIBLE) <= 20,
-            f"{student.said}: in the {PLACES[k]} panel, arrows near {show(STATES[0])} move when "
-            "there are others at the angles -3.1 and 3.1, and at the velocities -7.9 and 7.9: each "
-            "panel shows exactly -pi to pi and -8 to 8, whatever is drawn.",
+            f"{student.said}: in the {PLACES[k]} panel, the lower left quarter changes when arrows "
+            "at other edges are added (angles -3.1 and 3.1, velocities -7.9 and 7.9), but each "
+            "panel should show exactly -pi to pi and -8 to 8, whatever is drawn.",
         )
 
 
@@ -891,8 +929,8 @@ def titles_stand_above(student: Student, plain: np.ndarray) -> None:
             expect(
                 bool((third > VISIBLE).any()) == (k in changed),
                 f"{student.said}: with titles = {titles} in place of {list(TITLES)}, panel {k} "
-                f"looks {'the same' if k in changed else 'different'}: write titles[i] above "
-                "panel i.",
+                f"looks {'the same' if k in changed else 'different'}, but titles[i] should stand "
+                "above panel i.",
             )
 
 
@@ -907,7 +945,7 @@ def path_lies_above(student: Student) -> None:
     expect(
         bool(np.abs(both - path)[shared].sum() <= np.abs(both - field)[shared].sum()),
         f"{student.said}: where an arrow of a path and one of the field lie upon each other, the "
-        "field covers the path, but the path is to lie above the field.",
+        "field covers the path, but the path should lie above the field.",
     )
 
 
@@ -957,24 +995,32 @@ def drawn_otherwise(extent: np.ndarray, sizes) -> str:
     """How arrows are drawn that do not go to the next state, or ""."""
     states, changes = ARROWS[:, :2], ARROWS[:, 2:]
     ways = {
-        "They are as long as the numbers of the next state: an arrow is as long as the change.": (
+        "They are as long as the numbers of the next state, but should be as long as the change.": (
             states, 2 * states + changes
         ),
-        "They end where the change itself would be a state.": (states, changes),
+        "They end at the change, as if that were a state, but should end in the next state.": (
+            states, changes
+        ),
         "They end in their state, but should begin there.": (states - changes, states),
         "Their middle is in their state, but they should begin there.": (
             states - changes / 2, states + changes / 2
         ),
-        "They point the other way: the changes are to be added.": (states, states - changes),
+        "They point the other way, but the changes should be added to the states.": (
+            states, states - changes
+        ),
     }  # fmt: skip
     for factor in (0.1, 0.2, 0.5, 2, 5, 10):
-        text = f"They are {factor:g} times as long as their change."
+        text = (
+            f"They are {factor:g} times as long as their change, but should end in the next state."
+        )
         ways[text] = (states, states + factor * changes)
     off = {text: max(misfits(extent, *within_axes(*ends), sizes)) for text, ends in ways.items()}
     exchanged = (states[:, ::-1], (states + changes)[:, ::-1])
-    off["Angles and velocities are exchanged."] = max(misfits(extent, *exchanged, sizes))
+    off["Angles and velocities are exchanged, but the angles should grow from left to right."] = (
+        max(misfits(extent, *exchanged, sizes))
+    )
     directions = changes / np.hypot(*changes.T)[:, None]
-    off["All are equally long: each is to be as long as its change."] = min(
+    off["All are equally long, but each should be as long as its change."] = min(
         max(misfits(extent, *within_axes(states, states + length * directions), sizes))
         for length in (0.2, 0.5, 1, 2)
     )
@@ -1011,8 +1057,8 @@ def arrows_point_to_the_next_state(student: Student):
         shape, found = different.shape[1:], drawn_arrows(different)
         expect(
             all(len(points) > 5 for points, _ in found),
-            f"{student.said}: a single arrow of a {what} is not seen: it is not drawn, or it lies "
-            "outside of the axes, for example.",
+            f"{student.said}: at least one arrow of a {what} is hardly seen. Perhaps it is not "
+            "drawn, or lies outside of the axes.",
         )
         begins, ends = ARROWS[:, :2], ARROWS[:, :2] + ARROWS[:, 2:]
         extent = np.array([[points.min(axis=0), points.max(axis=0)] for points, _ in found])
@@ -1020,9 +1066,8 @@ def arrows_point_to_the_next_state(student: Student):
         if off >= 0.05:
             far = f"up to {100 * off:.0f} % of the picture away" if off < 1 else "elsewhere"
             raise Wrong(
-                f"{student.said}: in axes from -pi to pi and -8 to 8, the arrows of a {what} are "
-                f"to "
-                f"go from their state to the next one, but they begin or end {far}."
+                f"{student.said}: in axes from -pi to pi and -8 to 8, the arrows of a {what} "
+                f"should go from their state to the next one, but they begin or end {far}."
                 f"{drawn_otherwise(extent, shape[::-1])}"
             )
         scales = fitted(extent, begins, ends)
@@ -1039,8 +1084,8 @@ def arrows_point_to_the_next_state(student: Student):
         at_head, at_tail = np.sum(widths, axis=0)
         expect(
             at_head > 1.15 * at_tail,
-            f"{student.said}: the arrows of a {what} are not wider at the next state than at "
-            "their own one: they need heads there.",
+            f"{student.said}: the arrows of a {what} should have heads at the next state, "
+            "but they are not wider there than at their own state.",
         )
     axes_end_exactly(student)
 
@@ -1060,13 +1105,12 @@ def axes_end_exactly(student: Student) -> None:
         wrong = [state for state in outside if is_seen(state)]
     expect(
         not wrong or is_seen((1.0, 1.0)),
-        f"{student.said}: a path of two arrows shows only the first one, though both lie within "
-        f"the "
-        "axes.",
+        f"{student.said}: of a path of two arrows only the first one is seen, but both lie within "
+        "the axes and should be seen.",
     )
     for angle, velocity in wrong[:1]:
         raise Wrong(
             f"{student.said}: an arrow at angle {angle:g} and velocity {velocity:g} is "
-            f"{'not ' if (angle, velocity) in inside else ''}seen: show exactly -pi to pi and -8 "
-            "to 8."
+            f"{'not ' if (angle, velocity) in inside else ''}seen, but each panel should show "
+            "exactly -pi to pi and -8 to 8."
         )

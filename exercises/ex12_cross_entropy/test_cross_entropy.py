@@ -1195,6 +1195,7 @@ def expect_balanced(student: Student, environment: str, index: int, left: int = 
     ]
     expect(
         isinstance(returns, list)
+        and len(returns) > 0
         and all(isinstance(each, (list, np.ndarray)) and len(each) for each in returns),
         f"{said}: returns should be a list that holds a list for each iteration, with the returns "
         "of its episodes (at least one).",

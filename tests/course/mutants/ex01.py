@@ -1,8 +1,8 @@
 """Wrong solutions of exercise 1; building.py describes how a case is written."""
 
 # %% describe_first_choice loses 1.1
-# Takes it for granted that the choices of a Discrete space begin with 0.
-# says: first returned 0|first is 0
+# Gives 0 as the first choice of every Discrete space, but space.start is asked for.
+# says: "first" of .* is 0
 _describe = describe
 
 
@@ -15,7 +15,7 @@ def describe(environment_id):
 
 
 # %% describe_known_only loses 1.1
-# The bounds are looked up in a table of the environments that the student has met.
+# Gives the spaces and the time limit of CartPole-v1 for every environment except Pendulum-v1, but each environment has its own.
 def describe(environment_id):
     box = lambda *limits: {  # noqa: E731
         "kind": "Box",
@@ -32,7 +32,7 @@ def describe(environment_id):
 
 
 # %% goes_on_after_the_end loses 1.2
-# Looks at `terminated` alone, and goes on when the time limit is over.
+# Goes on after a step that is truncated, but an episode should stop when it is terminated or truncated.
 # says: is over after 200 steps
 def random_episode(environment_id, seed, maxsteps):
     env = gymnasium.make(environment_id)
@@ -56,7 +56,7 @@ def random_episode(environment_id, seed, maxsteps):
 
 
 # %% maxsteps_is_truncation loses 1.2
-# Reports an episode that only maxsteps stopped as truncated by the environment.
+# Sets truncated to True when only maxsteps has stopped the episode, but both ends should be False then.
 _random_episode = random_episode
 
 
@@ -67,7 +67,7 @@ def random_episode(environment_id, seed, maxsteps):
 
 
 # %% observation_of_reset_missing loses 1.2
-# Keeps the observations of the steps, but not the one of the reset.
+# Leaves out the observation of the reset, but it should be the first one.
 # says: The first one is missing
 _random_episode = random_episode
 
@@ -78,7 +78,7 @@ def random_episode(environment_id, seed, maxsteps):
 
 
 # %% one_kind_of_end loses 1.2
-# Treats the two ends as one, as the old `done` did.
+# Sets terminated and truncated both to True when only one of them is, but each should be as the last step said.
 # says: as the old `done` was
 _random_episode = random_episode
 
@@ -90,7 +90,7 @@ def random_episode(environment_id, seed, maxsteps):
 
 
 # %% unseeded_actions loses 1.2
-# Seeds the reset, but not the action space: no episode can be repeated.
+# Does not seed the action space, so that each call draws other actions, but the seed should decide them.
 # says: do not come from the seed
 def random_episode(environment_id, seed, maxsteps):
     env = gymnasium.make(environment_id)
@@ -113,26 +113,26 @@ def random_episode(environment_id, seed, maxsteps):
 
 
 # %% always_one loses 1.3
-# Has seen nothing but ones, and gives 1 even after the fall.
+# Gives the reward 1 in every state, but 0 is asked for where fallen is True.
 def cartpole_reward(observation, action):
     return 1.0
 
 
 # %% limits_of_the_space loses 1.3
-# Takes the limits of the observation space, which are twice those of the task.
+# Uses limits that are too large, such as those of the observation space (4.8 metres and 24 degrees), but 2.4 metres and 12 degrees are asked for.
 # says: 12 degrees are 0.2094
 def fallen(observation):
     return bool(abs(observation[0]) > 4.8 or abs(observation[2]) > 0.4189)
 
 
 # %% one_side_only loses 1.3
-# Forgets that the pole can fall to the left, too.
+# Finds a fall on the right side only, but a position below -2.4 metres or an angle below -12 degrees counts, too.
 def fallen(observation):
     return bool(observation[0] > 2.4 or observation[2] > np.deg2rad(12))
 
 
 # %% asks_gymnasium loses 1.3, 1.4
-# Lets Gymnasium's environments do the step, and passes their reward on.
+# Lets Gymnasium's environment do the step and passes its reward on, but your own code should compute the reward.
 def cartpole_reward(observation, action):
     env = gymnasium.make("CartPole-v1").unwrapped
     env.reset(seed=1)
@@ -149,7 +149,7 @@ def pendulum_reward(observation, action):
 
 
 # %% arctan_of_the_quotient loses 1.4
-# arctan(sin / cos) knows half of the circle only.
+# Divides the sine by the cosine, which fails where the cosine is 0, and finds half of the circle only. np.arctan2(sine, cosine) gives every angle.
 # says: see np.arctan2
 def pendulum_reward(observation, action):
     cosine, sine, speed = (float(value) for value in observation)
@@ -158,7 +158,7 @@ def pendulum_reward(observation, action):
 
 
 # %% torque_not_cut loses 1.4
-# Pays for the torque that was wanted, not for the one that the motor gives.
+# Uses the torque as it is given, but it should first be cut to the range from -2 to 2.
 # says: The torque is not cut
 # -     torque = np.clip(float(action[0]), -2.0, 2.0)
 # -     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
@@ -166,19 +166,19 @@ def pendulum_reward(observation, action):
 
 
 # %% angle_only loses 1.5
-# Follows the angle and not its speed: swings up and falls after some 40 steps.
+# Looks at the sign of the angle alone, so that the pole swings to the other side and falls; the speed of the angle should count, too.
 def balance(observation):
     return int(observation[2] > 0)
 
 
 # %% speed_only loses 1.5
-# Brakes the pole but lets it lean: 180 of 200 steps.
+# Looks at the sign of the angle's speed alone, so that the pole stays leaning and falls in the end; the angle should count, too.
 def balance(observation):
     return int(observation[3] > 0)
 
 
 # %% deviation_divides_by_n loses 1.6
-# np.std without ddof=1 divides by n.
+# Divides by the number of episodes in the standard deviation, but the number of episodes minus one is asked for.
 # says: n and n - 1 were mixed up
 _compare = compare
 
@@ -192,7 +192,7 @@ def compare(environment_ids, episodes, seed):
 
 
 # %% mean_reward_of_a_step loses 1.6
-# The mean reward of a step instead of the mean return of an episode.
+# Gives the mean reward of a step, but the mean return of an episode is asked for.
 # says: this
 _compare = compare
 
@@ -205,7 +205,7 @@ def compare(environment_ids, episodes, seed):
 
 
 # %% same_episode_again loses 1.6
-# Plays the very same episode again and again.
+# Uses only the episode with seed itself, once or several times, but episode i should have seed + i.
 _compare = compare
 
 
@@ -217,7 +217,7 @@ def compare(environment_ids, episodes, seed):
 
 
 # %% last_step_does_not_count loses 1.2
-# Takes every episode of maxsteps steps for one that maxsteps has stopped.
+# Sets both ends to False whenever an episode has maxsteps steps, but its last step may have ended it: then one is True.
 # says: in the last of its 200 steps
 _random_episode = random_episode
 
@@ -230,14 +230,14 @@ def random_episode(environment_id, seed, maxsteps):
 
 
 # %% over_at_the_limit loses 1.3
-# Ends the episode exactly at the limit, which is still allowed.
+# Returns True where the cart is exactly 2.4 metres from the middle, but only more than that is a fall.
 # says: exactly 2.4 is still allowed
 # -     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(12))
 # +     return bool(abs(position) >= 2.4 or abs(angle) >= np.deg2rad(12))
 
 
 # %% keeps_pushing loses 1.5
-# Keeps the action of the call before while the pole hardly moves.
+# Repeats the action of the call before while the pole hardly moves, but the action must depend on the observation alone.
 # says: must depend on the observation alone
 _pushed = [0]
 
@@ -250,7 +250,7 @@ def balance(observation):
 
 
 # %% tosses_a_coin loses 1.5
-# Tosses a coin while the pole hardly moves.
+# Draws a random action while the pole hardly moves, but the action must depend on the observation alone.
 # says: must depend on the observation alone
 _coin = np.random.default_rng()
 
@@ -261,7 +261,7 @@ def balance(observation):
 
 
 # %% one_row_for_a_name loses 1.6
-# Collects the rows in a dict, so that an environment that is given twice has one row.
+# Makes a single row for an environment that is given twice, but a row for each name in the list is asked for.
 # says: a list of 2 rows
 _compare = compare
 
@@ -273,13 +273,13 @@ def compare(environment_ids, episodes, seed):
 
 
 # %% five_hundred_steps_at_most loses 1.6
-# Ends every episode after 500 steps, though some environments allow more.
+# Stops episodes after 500 steps, but they should go on until they are terminated or truncated.
 # -         runs = [random_episode(environment_id, seed + i, 1_000_000) for i in range(episodes)]
 # +         runs = [random_episode(environment_id, seed + i, 500) for i in range(episodes)]
 
 
 # %% zero_is_no_seed loses 1.2
-# Takes the seed 0 for no seed at all.
+# Plays without a seed when the seed is 0, but 0 is a seed like any other.
 # -     observation, _ = env.reset(seed=seed)
 # -     env.action_space.seed(seed)
 # +     observation, _ = env.reset(seed=seed or None)
@@ -287,19 +287,19 @@ def compare(environment_ids, episodes, seed):
 
 
 # %% thousand_steps_at_most loses 1.6
-# Ends every episode after 1000 steps, though an environment may allow more.
+# Stops episodes after 1000 steps, but they should go on until they are terminated or truncated.
 # -         runs = [random_episode(environment_id, seed + i, 1_000_000) for i in range(episodes)]
 # +         runs = [random_episode(environment_id, seed + i, 1000) for i in range(episodes)]
 
 
 # %% hanging_is_upright loses 1.4
-# Gives arccos the sign of the sine, which is 0 when the rod hangs straight down.
+# Takes the angle 0 for a rod that hangs straight down (as np.arccos(cosine) * np.sign(sine) does), but the angle should be pi there.
 # -     angle = np.arctan2(sine, cosine)
 # +     angle = np.arccos(np.clip(cosine, -1, 1)) * np.sign(sine)
 
 
 # %% arctan_corrected loses 1.4
-# Divides sine by cosine, and turns half of the circle; a cosine of 0 divides by 0.
+# Divides by the cosine, which fails where the cosine is 0: np.arctan2(sine, cosine) needs no division.
 # -     angle = np.arctan2(sine, cosine)
 # +     angle = np.arctan(sine / cosine)
 # +     if cosine < 0:
@@ -307,19 +307,19 @@ def compare(environment_ids, episodes, seed):
 
 
 # %% twelve_degrees_is_too_much loses 1.3
-# Ends the episode at exactly 12 degrees, which is still allowed.
+# Returns True at exactly 12 degrees, but only an angle beyond 12 degrees is a fall.
 # -     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(12))
 # +     return bool(abs(position) > 2.4 or abs(angle) >= 12 * 2 * np.pi / 360)
 
 
 # %% one_minus_zero loses 1.3
-# Tests the fall in whole degrees.
+# Finds a fall only beyond 12.5 degrees (as a comparison of rounded degrees does), but everything beyond 12 degrees is one.
 # -     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(12))
 # +     return bool(abs(position) > 2.4 or round(np.rad2deg(abs(angle))) > 12)
 
 
 # %% remembers_an_environment loses 1.6
-# Remembers the row of an environment, and gives it again when other episodes are asked for.
+# Gives the row that an earlier call has found for the same environment, but each call should play its own episodes.
 _compare, _rows = compare, {}
 
 
@@ -331,7 +331,7 @@ def compare(environment_ids, episodes, seed):
 
 
 # %% table_grows loses 1.6
-# The table is a default argument, so that a second call finds the rows of the first.
+# Adds its rows to those of the calls before, but each call should return a table of its own.
 _compare = compare
 
 
@@ -341,95 +341,95 @@ def compare(environment_ids, episodes, seed, table=[]):  # noqa: B006
 
 
 # %% torque_cut_at_the_top_only loses 1.4
-# Cuts torques above 2, but not those below -2.
+# Cuts torques above 2, but not those below -2, which should be cut to -2.
 # -     torque = np.clip(float(action[0]), -2.0, 2.0)
 # +     torque = min(float(action[0]), 2.0)
 
 
 # %% median_return loses 1.6
-# Takes the median of the returns for their mean.
+# Gives the median of the returns, but their mean is asked for.
 # -                 "mean": float(np.mean(returns)),
 # +                 "mean": float(np.median(returns)),
 
 
 # %% steps_of_the_last_episode loses 1.6
-# Gives the length of the last episode, not the mean length.
+# Gives the length of the last episode, but the mean length is asked for.
 # -                 "length": float(np.mean([len(run["rewards"]) for run in runs])),
 # +                 "length": float(len(runs[-1]["rewards"])),
 
 
 # %% last_choice loses 1.1
-# Adds the number of the first choice to the number of choices.
+# Gives space.n + space.start as the number of choices, but space.n is asked for.
 # says: this
 # -             return {"kind": "Discrete", "choices": int(space.n), "first": int(space.start)}
 # +             return {"kind": "Discrete", "choices": int(space.start + space.n), "first": int(space.start)}
 
 
 # %% reset_twice loses 1.2
-# Resets a second time, without the seed.
+# Resets the environment a second time, without the seed, but a single env.reset(seed=seed) is asked for.
 # -     env.action_space.seed(seed)
 # +     env.action_space.seed(seed)
 # +     observation, _ = env.reset()
 
 
 # %% whole_rewards loses 1.2
-# Makes whole numbers of the rewards.
+# Cuts the rewards to whole numbers, but they should be kept as they are.
 # says: this
 # -         rewards.append(float(reward))
 # +         rewards.append(int(reward))
 
 
 # %% terminated_wins loses 1.2
-# Calls an episode truncated only if it is not terminated in the same step.
+# Sets truncated to False when the last step says that both are True, but then both should be True.
 # says: Both can be True
 # -         "truncated": bool(truncated),
 # +         "truncated": bool(truncated and not terminated),
 
 
 # %% degrees_for_radians loses 1.3
-# Compares radians with 12.
+# Never finds that the pole leans too far: the angle is left out, or it is compared with 12. It is in radians, and 12 degrees are 0.2094 radians.
 # says: this
 # -     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(12))
 # +     return bool(abs(position) > 2.4 or abs(angle) > 12)
 
 
 # %% rounded_limit loses 1.3
-# Takes 0.21 for 12 degrees.
-# says: not with rounded numbers
+# Takes a rounded number, such as 0.21 radians, for 12 degrees, but the limit should be exactly 12 degrees.
+# says: exactly 2.4 metres and 12 degrees
 # -     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(12))
 # +     return bool(abs(position) > 2.4 or abs(angle) > 0.21)
 
 
 # %% over_at_the_limit_for_the_reward loses 1.3
-# Pays only while cart and pole are inside the limits, not at them.
+# Gives 0 where the cart is exactly 2.4 metres away, but the reward should be 1 as long as no limit is exceeded.
 # says: exactly|until the cart is more
 # -     return 0.0 if fallen(observation) else 1.0
 # +     return 1.0 if abs(observation[0]) < 2.4 and abs(observation[2]) < np.deg2rad(12) else 0.0
 
 
 # %% pole_alone_pays loses 1.3
-# Pays while the pole is up, wherever the cart is.
+# Gives 1 while the pole is up, wherever the cart is, but 0 is asked for where the cart is beyond 2.4 metres.
 # says: this
 # -     return 0.0 if fallen(observation) else 1.0
 # +     return 1.0 if abs(observation[2]) <= np.deg2rad(12) else 0.0
 
 
 # %% costs_swapped loses 1.4
-# Exchanges the factors of speed and torque.
+# Exchanges the factors of speed and torque: 0.1 should be that of the speed, 0.001 that of the torque.
 # says: this
 # -     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
 # +     return float(-(angle**2 + 0.001 * speed**2 + 0.1 * torque**2))
 
 
 # %% arcsine loses 1.4
-# Takes the angle from the sine alone.
+# Finds only angles between -90 and 90 degrees, as np.arcsin(sine) or np.arctan(sine / cosine) give them; np.arctan2(sine, cosine) gives every angle.
 # says: this
 # -     angle = np.arctan2(sine, cosine)
 # +     angle = np.arcsin(sine)
 
 
 # %% cut_after_the_square loses 1.4
-# Cuts the square of the torque.
+# Cuts the square of the torque at 2, but the torque itself should be cut, before it is squared.
 # says: this
 # -     torque = np.clip(float(action[0]), -2.0, 2.0)
 # -     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
@@ -438,21 +438,21 @@ def compare(environment_ids, episodes, seed, table=[]):  # noqa: B006
 
 
 # %% half_circle_only loses 1.4
-# Counts the angle from 0 to 2 pi.
+# Counts the angle from 0 to 2 pi, but it should lie between -pi and pi.
 # says: this
 # -     angle = np.arctan2(sine, cosine)
 # +     angle = np.arctan2(sine, cosine) % (2 * np.pi)
 
 
 # %% refuses_large_torques loses 1.4
-# Pays nothing for a torque beyond the limits.
+# Counts a torque beyond the limits as 0, but it should be cut to -2 or 2.
 # says: this
 # -     torque = np.clip(float(action[0]), -2.0, 2.0)
 # +     torque = float(action[0]) if abs(action[0]) <= 2 else 0.0
 
 
 # %% alternates loses 1.5
-# Pushes left and right in turn, whatever happens.
+# Pushes left and right in turn, but the observation should decide.
 # says: depend on the observation alone
 _turn = [0]
 
@@ -463,14 +463,14 @@ def balance(observation):
 
 
 # %% lean_and_speed_both loses 1.5
-# Pushes to the right only if the pole leans and turns to the right.
+# Pushes to the right only if the angle and its speed are both above 0, but where their signs differ, the stronger of the two should decide.
 # says: this
 # -     return int(angle + 0.5 * speed > 0)
 # +     return int(angle > 0 and speed > 0)
 
 
 # %% seed_runs_on loses 1.6
-# Goes on counting the seeds in the next environment.
+# Goes on counting the seeds from one environment to the next, but each environment should begin with seed again.
 # says: this
 # -         runs = [random_episode(environment_id, seed + i, 1_000_000) for i in range(episodes)]
 # +         runs = [random_episode(environment_id, seed + i, 1_000_000) for i in range(episodes)]
@@ -478,35 +478,35 @@ def balance(observation):
 
 
 # %% error_of_the_mean loses 1.6
-# Divides the standard deviation by the root of the number of episodes.
+# Divides the standard deviation by the root of the number of episodes, but the standard deviation itself is asked for.
 # says: this
 # -                 "deviation": float(np.std(returns, ddof=1)) if episodes > 1 else 0.0,
 # +                 "deviation": float(np.std(returns, ddof=1) / episodes**0.5) if episodes > 1 else 0.0,
 
 
 # %% length_rounded_down loses 1.6
-# Divides the steps as whole numbers.
+# Rounds the mean length down to a whole number (as // does), but its fraction should stay.
 # says: an environment without a time limit
 # -                 "length": float(np.mean([len(run["rewards"]) for run in runs])),
 # +                 "length": float(sum(len(run["rewards"]) for run in runs) // episodes),
 
 
 # %% two_decimals loses 1.6
-# Rounds the mean to two places.
+# Rounds the mean to two decimals, but the exact mean is asked for.
 # says: this
 # -                 "mean": float(np.mean(returns)),
 # +                 "mean": round(float(np.mean(returns)), 2),
 
 
 # %% dimensions_for_the_size loses 1.1
-# The size is the number of dimensions of the array, not of the numbers in it.
+# Gives every Box the size 1 (its number of dimensions), but how many numbers it holds is asked for.
 # says: this
 # -         return {"kind": "Box", "size": len(low), "low": low, "high": high}
 # +         return {"kind": "Box", "size": space.low.ndim, "low": low, "high": high}
 
 
 # %% seeds_before_each_sample loses 1.2
-# Every action is the first one: seed the space once, and draw anew in each step.
+# Uses the first action in every step: the action space is seeded again and again, or sampled only once. Seed it once, and sample in each step.
 # says: this
 # -     env.action_space.seed(seed)
 # -     observations, actions, rewards = [observation], [], []
@@ -517,14 +517,14 @@ def balance(observation):
 
 
 # %% observations_for_steps loses 1.6
-# The length counts the observations, of which there is one more than steps.
+# Counts the observations of an episode as its length, but the number of steps, which is one less, is asked for.
 # says: this
 # -                 "length": float(np.mean([len(run["rewards"]) for run in runs])),
 # +                 "length": float(np.mean([len(run["observations"]) for run in runs])),
 
 
 # %% rows_add_up loses 1.6
-# A row still holds the episodes of the environments before.
+# Counts the episodes of the environments before in each row, too, but a row should be about its own environment alone.
 # says: this
 # -     table = []
 # +     table, runs = [], []
@@ -535,14 +535,14 @@ def balance(observation):
 
 
 # %% torque_without_square loses 1.4
-# Takes the size of the torque instead of its square.
-# says: The torque has no square
+# Takes the absolute value of the torque instead of its square.
+# says: The torque is not squared
 # -     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
 # +     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * abs(torque)))
 
 
 # %% symmetric_limits loses 1.1
-# Takes minus the upper limit for the lower one.
+# Gives minus the upper limits as the lower ones, but space.low is asked for.
 # says: minus the other limit
 # -         low, high = space.low.ravel().tolist(), space.high.ravel().tolist()
 # +         high = space.high.ravel().tolist()
@@ -550,8 +550,8 @@ def balance(observation):
 
 
 # %% observed_before_the_step loses 1.2
-# Keeps what was observed before each step: the start comes twice, and the end is missing.
-# says: before each step, not after it
+# Keeps the observation from before each step instead of the one after it, so that the first comes twice and the last is missing.
+# says: from before each step is kept
 # -         observation, reward, terminated, truncated, _ = env.step(action)
 # -         observations.append(observation)
 # +         observations.append(observation)
@@ -559,7 +559,7 @@ def balance(observation):
 
 
 # %% speed_for_the_angle loses 1.3
-# Compares the speed of the angle with 12 degrees.
+# Compares the angle's speed, observation[3], with 12 degrees, but the angle, observation[2], is asked for.
 # says: this
 # -     position, _, angle, _ = observation
 # -     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(12))
@@ -568,14 +568,14 @@ def balance(observation):
 
 
 # %% limits_with_two_places loses 1.1
-# Rounds the limits to two places.
+# Rounds the limits to two decimals, but they should be given as they are.
 # says: These are rounded limits
 # -         low, high = space.low.ravel().tolist(), space.high.ravel().tolist()
 # +         low, high = np.round([space.low.ravel(), space.high.ravel()], 2).tolist()
 
 
 # %% limits_of_the_observations loses 1.1
-# Gives the limits of the observations for the actions.
+# Gives the limits of the observations for the actions, too, but the action space has limits of its own.
 # says: this
 _describe = describe
 
@@ -589,7 +589,7 @@ def describe(environment_id):
 
 
 # %% fall_costs_its_step loses 1.3
-# Gives 0 to the step in which the pole falls, by looking one step ahead.
+# Gives 0 for the step in which the pole falls, but a step that begins with the pole up should give 1.
 # says: the state in which a step begins
 # -     return 0.0 if fallen(observation) else 1.0
 # +     position, speed, angle, turning = observation
@@ -598,15 +598,15 @@ def describe(environment_id):
 
 
 # %% speed_after_the_step loses 1.4
-# Moves the rod first, and pays for its new speed.
-# says: that at its beginning counts
+# Uses the speed at the end of the step, but the speed at its beginning counts.
+# says: speed at its beginning counts
 # -     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
 # +     speed = np.clip(speed + 0.05 * (15 * np.sin(angle) + 3 * torque), -8, 8)
 # +     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
 
 
 # %% state_after_the_step loses 1.4
-# Moves the rod first, and pays for its new angle and speed.
+# Uses the angle and the speed at the end of the step, but those at its beginning count.
 # says: those at its beginning count
 # -     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
 # +     speed = np.clip(speed + 0.05 * (15 * np.sin(angle) + 3 * torque), -8, 8)
@@ -615,41 +615,41 @@ def describe(environment_id):
 
 
 # %% cut_at_one loses 1.4
-# Cuts the torque at 1, though the motor gives 2.
-# says: The torque is cut to -1 and 1
+# Cuts the torque to the range from -1 to 1, but it should be cut to the range from -2 to 2.
+# says: The torque is cut to the range from -1 to 1
 # -     torque = np.clip(float(action[0]), -2.0, 2.0)
 # +     torque = np.clip(float(action[0]), -1.0, 1.0)
 
 
 # %% speed_of_the_cart loses 1.5
-# Looks ahead with the speed of the cart, not with that of the angle.
+# Uses the speed of the cart, observation[1], where the speed of the angle, observation[3], is needed.
 # says: looks at the cart's speed
 # -     _, _, angle, speed = observation
 # +     _, speed, angle, _ = observation
 
 
 # %% factor_of_the_speed_squared loses 1.4
-# Squares the factor of the speed, too.
+# Squares the factor of the speed, too: 0.01 times the square of the speed counts, but 0.1 times is asked for.
 # says: 0.01 times the square of the speed
 # -     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
 # +     return float(-(angle**2 + (0.1 * speed) ** 2 + 0.001 * torque**2))
 
 
 # %% deviation_of_the_lengths loses 1.6
-# Gives the standard deviation of the lengths, not of the returns.
+# Gives the standard deviation of the lengths, but that of the returns is asked for.
 # -                 "deviation": float(np.std(returns, ddof=1)) if episodes > 1 else 0.0,
 # +                 "deviation": float(np.std([len(run["rewards"]) for run in runs], ddof=1)) if episodes > 1 else 0.0,
 
 
 # %% whole_degrees loses 1.3
-# Cuts the angle to whole degrees before it compares.
+# Finds a fall only from 13 degrees on (as int(np.rad2deg(angle)) > 12 does), but everything beyond 12 degrees is one.
 # says: this
 # -     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(12))
 # +     return bool(abs(position) > 2.4 or int(np.rad2deg(abs(angle))) > 12)
 
 
 # %% choices_without_the_first loses 1.1
-# Subtracts the first choice from the number of choices.
+# Gives space.n - space.start as the number of choices, but space.n is asked for.
 # says: The first choice is subtracted
 # -             return {"kind": "Discrete", "choices": int(space.n), "first": int(space.start)}
 # +             return {
@@ -660,7 +660,7 @@ def describe(environment_id):
 
 
 # %% rows_after_the_end loses 1.2
-# Rows of zeros are left over where the episode ends before maxsteps.
+# Leaves rows of zeros in observations when the episode ends before maxsteps, but only steps + 1 rows are asked for.
 # says: more of zeros follow: cut them off
 _random_episode_1 = random_episode
 
@@ -673,42 +673,42 @@ def random_episode(environment_id, seed, maxsteps=1000):
 
 
 # %% two_hundred_steps_at_most loses 1.6
-# Ends every episode after 200 steps, but it goes on until it is terminated or truncated.
+# Stops episodes after 200 steps, but they should go on until they are terminated or truncated.
 # says: this
 # -         runs = [random_episode(environment_id, seed + i, 1_000_000) for i in range(episodes)]
 # +         runs = [random_episode(environment_id, seed + i, 200) for i in range(episodes)]
 
 
 # %% rewards_of_all_steps loses 1.6
-# Takes the single rewards of all steps for the returns of the episodes.
+# Uses the rewards of single steps where the returns of whole episodes are asked for.
 # says: this
 # -         returns = [sum(run["rewards"]) for run in runs]
 # +         returns = [reward for run in runs for reward in run["rewards"]]
 
 
 # %% last_reward_for_the_return loses 1.6
-# Takes the last reward of an episode for its return, which is the sum of all rewards.
+# Takes the last reward of an episode as its return, but the return is the sum of all its rewards.
 # says: this
 # -         returns = [sum(run["rewards"]) for run in runs]
 # +         returns = [run["rewards"][-1] for run in runs]
 
 
 # %% mean_divided_by_n_minus_one loses 1.6
-# Divides by the number of episodes minus one for the mean, too.
+# Divides by the number of episodes minus one in the mean, too, but the mean should be divided by the number of episodes.
 # says: this
 # -                 "mean": float(np.mean(returns)),
 # +                 "mean": float(np.sum(returns) / max(1, episodes - 1)),
 
 
 # %% range_of_the_returns loses 1.6
-# Gives the difference between the largest and the smallest return for the standard deviation.
+# Gives the difference between the largest and the smallest return, but the standard deviation is asked for.
 # says: this
 # -                 "deviation": float(np.std(returns, ddof=1)) if episodes > 1 else 0.0,
 # +                 "deviation": float(max(returns) - min(returns)),
 
 
 # %% first_episode_left_out loses 1.6
-# Leaves the episode with the seed itself out: the first one has seed + 0.
+# Leaves out the episode with seed itself, but it should be the first one.
 # says: this
 _compare = compare
 
@@ -719,21 +719,21 @@ def compare(environment_ids, episodes, seed):
 
 
 # %% divides_by_zero_for_one_episode loses 1.6
-# Divides by 0 for a single episode, whose deviation is 0.
-# says: it is 0 for a single episode
+# Gives NaN as the deviation of a single episode (a division by 0), but 0 is asked for.
+# says: should be 0 for a single episode
 # -                 "deviation": float(np.std(returns, ddof=1)) if episodes > 1 else 0.0,
 # +                 "deviation": float(np.std(returns, ddof=1)),
 
 
 # %% size_of_the_speed loses 1.4
-# Takes the size of the angle's speed instead of its square.
+# Takes the absolute value of the angle's speed instead of its square.
 # says: this
 # -     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
 # +     return float(-(angle**2 + 0.1 * abs(speed) + 0.001 * torque**2))
 
 
 # %% size_of_the_angle loses 1.4
-# Takes the size of the angle instead of its square.
+# Takes the absolute value of the angle instead of its square.
 # says: this
 # -     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
 # +     return float(-(abs(angle) + 0.1 * speed**2 + 0.001 * torque**2))
@@ -747,7 +747,7 @@ def compare(environment_ids, episodes, seed):
 
 
 # %% torque_in_shares_of_the_limit loses 1.4
-# Cuts the torque off at -1 and 1 and then doubles it.
+# Cuts the torque to the range from -1 to 1 and then doubles it, but it should only be cut, to the range from -2 to 2.
 # says: and then doubled
 # -     torque = np.clip(float(action[0]), -2.0, 2.0)
 # +     torque = 2 * np.clip(float(action[0]), -1.0, 1.0)
@@ -761,14 +761,14 @@ def compare(environment_ids, episodes, seed):
 
 
 # %% leaning_or_turning loses 1.5
-# Pushes to the right as soon as either the angle or its speed is above 0.
+# Pushes to the right as soon as the angle or its speed is above 0, but where their signs differ, the stronger of the two should decide.
 # says: this
 # -     return int(angle + 0.5 * speed > 0)
 # +     return int(angle > 0 or speed > 0)
 
 
 # %% two_samples_for_an_action loses 1.2
-# Draws two actions in each step and uses the second one.
+# Draws two actions in each step and uses the second one, but one sample() for each step is asked for.
 # says: this
 # -         action = env.action_space.sample()
 # +         env.action_space.sample()
@@ -776,14 +776,14 @@ def compare(environment_ids, episodes, seed):
 
 
 # %% action_seed_plus_one loses 1.2
-# Seeds the action space with seed + 1, but with the seed itself is asked for.
+# Seeds the action space with seed + 1, but seed itself is asked for.
 # says: this
 # -     env.action_space.seed(seed)
 # +     env.action_space.seed(seed + 1)
 
 
 # %% last_step_left_out loses 1.2
-# Leaves out the last step: the loop ends before its observation, action and reward are kept.
+# Leaves out the step that ends the episode, but its observation, action and reward should be kept.
 # says: this
 # -         observations.append(observation)
 # -         actions.append(action)
@@ -802,7 +802,7 @@ def compare(environment_ids, episodes, seed):
 
 
 # %% last_choice_for_the_first loses 1.1
-# Gives the last choice of a Discrete space for the first.
+# Gives the last choice of a Discrete space as the first, but space.start is asked for.
 # says: this
 # -             return {"kind": "Discrete", "choices": int(space.n), "first": int(space.start)}
 # +             last = int(space.start + space.n - 1)
@@ -810,14 +810,14 @@ def compare(environment_ids, episodes, seed):
 
 
 # %% limit_of_what_is_observed loses 1.3
-# Takes 24 degrees, the limit of what can be observed, for the limit of the angle.
+# Takes 24 degrees, the limit in the observation space, as the limit of the angle, but 12 degrees are asked for.
 # says: this
 # -     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(12))
 # +     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(24))
 
 
 # %% end_of_a_range loses 1.1
-# Takes the number of choices of a Discrete space for the end of a range that begins with the first one.
+# Gives len(range(space.start, space.n)) as the number of choices, but space.n is asked for.
 # says: this
 # -             return {"kind": "Discrete", "choices": int(space.n), "first": int(space.start)}
 # +             first = int(space.start)
@@ -825,14 +825,14 @@ def compare(environment_ids, episodes, seed):
 
 
 # %% no_infinite_limits loses 1.1
-# Replaces infinite limits by large numbers, as np.nan_to_num does: give them as they are.
+# Replaces infinite limits by large numbers (as np.nan_to_num does), but they should stay infinite.
 # says: this
 # -         low, high = space.low.ravel().tolist(), space.high.ravel().tolist()
 # +         low, high = (np.nan_to_num(limits.ravel()).tolist() for limits in (space.low, space.high))
 
 
 # %% square_of_the_mean_once loses 1.6
-# Subtracts the square of the mean once from the sum of squares, not n times.
+# Subtracts the square of the mean only once from the sum of the squared returns, but it should be subtracted once for each episode.
 # says: this
 def compare(environment_ids, episodes, seed):
     def play(name):
@@ -856,7 +856,7 @@ def compare(environment_ids, episodes, seed):
 
 
 # %% one_dict_filled_twice loses 1.1
-# Fills one and the same dict for both spaces.
+# Gives the same dict for both spaces, in which the action's values replace the observation's, but each space should have a dict of its own.
 # says: this
 def describe(environment_id):
     env = gymnasium.make(environment_id)
@@ -877,7 +877,7 @@ def describe(environment_id):
 
 
 # %% zero_for_no_limit loses 1.1
-# Gives 0 where there is no time limit.
+# Gives 0 where there is no time limit, but None is asked for.
 # says: None was expected
 # -         "maxsteps": env.spec.max_episode_steps,
 # +         "maxsteps": int(env.spec.max_episode_steps or 0),

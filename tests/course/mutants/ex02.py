@@ -1,8 +1,8 @@
 """Wrong solutions of exercise 2; building.py describes how a case is written."""
 
 # %% random_biases loses 2.1
-# Draws the biases, too.
-# says: b1 must be all zeros
+# Draws the biases at random, but all of them should be 0.
+# says: b1 should be all zeros
 _parameters = parameters
 
 
@@ -13,7 +13,7 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 
 # %% seeded_for_each_layer loses 2.1
-# Seeds again for the second layer, which gets the numbers of the first.
+# Begins again with the same seed for W2, so that it holds the numbers of W1, but each weight should be drawn on its own.
 def parameters(ninputs, nhiddens, noutputs, seed):
     return {
         "W1": 0.1 * np.random.default_rng(seed).standard_normal((nhiddens, ninputs)),
@@ -24,7 +24,7 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 
 # %% uniform_weights loses 2.1
-# Uniform instead of Gaussian numbers, with the right deviation.
+# Draws evenly distributed (uniform) weights with the right standard deviation, but Gaussian ones are asked for.
 # -     rng = np.random.default_rng(seed)
 # +     rng = np.random.default_rng(seed)
 # +     limit = 0.1 * 3**0.5
@@ -35,7 +35,7 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 
 # %% variance_for_deviation loses 2.1
-# Takes 0.1 for the variance: the weights are three times too large.
+# Takes 0.1 as the variance, so that the weights are three times too large, but it should be the standard deviation.
 # says: standard deviation 0\.3
 # -         "W1": 0.1 * rng.standard_normal((nhiddens, ninputs)),
 # +         "W1": rng.normal(0, 0.1**0.5, (nhiddens, ninputs)),
@@ -44,21 +44,21 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 
 # %% biases_forgotten loses 2.2
-# Leaves out the biases, which are 0 in random networks, but not in evolved ones.
+# Leaves out the biases b1 and b2, but they should be added before tanh.
 # says: The biases are left out
 def forward(network, observation):
     return np.tanh(network["W2"] @ np.tanh(network["W1"] @ observation))
 
 
 # %% linear_outputs loses 2.2
-# Forgets tanh at the outputs: their order stays, so discrete actions are right.
+# Leaves out tanh at the outputs, but both layers should have it.
 # says: tanh is left out at the outputs
 # -     return np.tanh(network["W2"] @ hidden + network["b2"])
 # +     return network["W2"] @ hidden + network["b2"]
 
 
 # %% multiplies_from_the_wrong_side loses 2.2
-# Multiplies from the wrong side.
+# Multiplies the vector and the matrix in the wrong order, as in observation @ W1, but W1 @ observation is asked for.
 # says: transpose one|exchange the two sides
 def forward(network, observation):
     hidden = np.tanh(observation @ network["W1"] + network["b1"])
@@ -66,7 +66,7 @@ def forward(network, observation):
 
 
 # %% reshaped_in_place loses 2.2
-# Makes columns of the biases in the network itself.
+# Changes the shape of the network's own biases, but the arrays given should stay as they are.
 def forward(network, observation):
     values = observation[:, None]
     for layer in "12":
@@ -76,29 +76,29 @@ def forward(network, observation):
 
 
 # %% one_output_for_discrete loses 2.3
-# One output whatever the number of choices.
+# Gives one output for every environment, but one for each choice, or for each number of a Box, is asked for.
 def sizes(environment_id):
     env = gymnasium.make(environment_id)
     return env.observation_space.shape[0], 1
 
 
 # %% raw_outputs loses 2.4
-# Uses the outputs of a Box as they are: Pendulum's motor gives half of its torque.
-# says: stretch them to the space's limits
+# Returns the outputs for a Box as they are, but they should be stretched to the limits of the space.
+# says: stretched to the space's limits
 # -     low, high = action_space.low, action_space.high
 # -     return (low + (outputs + 1) / 2 * (high - low)).astype(action_space.dtype)
 # +     return np.asarray(outputs, dtype=np.float32)
 
 
 # %% same_limits_for_all loses 2.4
-# Stretches every number by the upper limit of the first, which one-motor robots forgive.
+# Multiplies every output by the upper limit of the first number, but each should be stretched to both of its own limits.
 # -     low, high = action_space.low, action_space.high
 # -     return (low + (outputs + 1) / 2 * (high - low)).astype(action_space.dtype)
 # +     return (outputs * action_space.high[0]).astype(np.float32)
 
 
 # %% start_ignored loses 2.4
-# The first choice is always 0.
+# Returns the number of the most active output, but action_space.start should be added to it.
 _act = act
 
 
@@ -109,7 +109,7 @@ def act(outputs, action_space):
 
 
 # %% last_reward_missing loses 2.5
-# The return leaves out the reward of the last step.
+# Leaves out the reward of the step in which the episode is terminated or truncated, but the return should count it.
 def run_episode(environment_id, network, seed, maxsteps=200):
     env = gymnasium.make(environment_id)
     observation, _ = env.reset(seed=seed)
@@ -124,7 +124,7 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 
 
 # %% never_stops loses 2.5
-# Does all of the steps, even when the pole has fallen or the goal is reached.
+# Does all maxsteps steps, but it should stop when the episode is terminated or truncated.
 # says: is over after 10 steps
 # -     terminated = truncated = False
 # -     while len(actions) < maxsteps and not (terminated or truncated):
@@ -137,7 +137,7 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 
 
 # %% no_limit_of_steps loses 2.5
-# Ignores maxsteps.
+# Goes on to the end of the episode whatever maxsteps is, but it should stop after maxsteps steps at the latest.
 _run_episode = run_episode
 
 
@@ -146,7 +146,7 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 
 
 # %% reset_without_seed loses 2.5
-# The seed is not passed to reset.
+# Resets the environment without the seed, but env.reset(seed=seed) is asked for.
 # says: do not come from the seed
 # -     observation, _ = env.reset(seed=seed)
 # +     observation, _ = env.reset()
@@ -156,28 +156,28 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 
 
 # %% sum_of_returns loses 2.6
-# Sums the returns instead of averaging them.
+# Gives the sum of the returns, but their mean is asked for.
 # says: It is the sum of the returns
 def fitness(environment_id, network, seeds, maxsteps=200):
     return sum(run_episode(environment_id, network, seed, maxsteps)["return"] for seed in seeds)
 
 
 # %% ten_times_the_first_seed loses 2.6
-# Every episode begins with the first seed.
+# Uses the first seed alone, once or several times, but an episode for each seed is asked for.
 def fitness(environment_id, network, seeds, maxsteps=200):
     runs = [run_episode(environment_id, network, seeds[0], maxsteps) for _ in seeds]
     return float(np.mean([run["return"] for run in runs]))
 
 
 # %% first_network_for_all loses 2.7
-# Uses the second layer of the first network for all of them.
+# Uses W2 of network 0 for all networks, but each has a W2 of its own.
 def forward_batch(networks, observations):
     hidden = np.einsum("nhi,ni->nh", networks["W1"], observations) + networks["b1"]
     return np.tanh(np.tanh(hidden) @ networks["W2"][0].T + networks["b2"])
 
 
 # %% loop_over_networks loses 2.7
-# Right, but a loop over the networks.
+# Computes one network after the other in a loop, but all should be computed at once.
 def forward_batch(networks, observations):
     return np.array(
         [
@@ -188,7 +188,7 @@ def forward_batch(networks, observations):
 
 
 # %% last_of_equals loses 2.8
-# Of networks with equal fitness, takes the last.
+# Gives the last of the networks with the highest fitness, but of equals the lowest number is asked for.
 _random_search = random_search
 
 
@@ -199,7 +199,7 @@ def random_search(environment_id, nnetworks, nhiddens, seed):
 
 
 # %% lowest_fitness loses 2.8
-# Picks the network with the lowest fitness.
+# Gives the network with the lowest fitness as the best, but the highest is asked for.
 _random_search = random_search
 
 
@@ -209,7 +209,7 @@ def random_search(environment_id, nnetworks, nhiddens, seed):
 
 
 # %% own_episodes_for_each loses 2.8
-# Every network meets other episodes, so their fitness cannot be compared.
+# Measures network i with the seeds from seed + 10 * i on, but all networks should have those from seed to seed + 9.
 # -     seeds = list(range(seed, seed + 10))
 # -     measured = [fitness(environment_id, network, seeds) for network in networks]
 # +     measured = [
@@ -219,21 +219,21 @@ def random_search(environment_id, nnetworks, nhiddens, seed):
 
 
 # %% renames_a_function loses 2.8
-# Renames a function it calls.
+# Calls fitness by a name that does not exist.
 # says: fitnes' is not defined. Did you mean
 def random_search(environment_id, nnetworks, nhiddens, seed):
     return fitnes(environment_id, parameters(4, nhiddens, 2, seed), range(10))
 
 
 # %% second_layer_from_the_next_seed loses 2.1
-# W2 is drawn from seed + 1, with which W1 of the next network begins.
+# Draws W2 with seed + 1, so that it has the numbers of W1 in the network of the next seed, but two seeds should have no weight in common.
 # says: are also in the network of seed
 # -         "W2": 0.1 * rng.standard_normal((noutputs, nhiddens)),
 # +         "W2": 0.1 * np.random.default_rng(seed + 1).standard_normal((noutputs, nhiddens)),
 
 
 # %% counts_up_to_the_last_choice loses 2.3
-# Adds the number of the first choice to the number of choices.
+# Gives start + n outputs for a Discrete space, but one for each of its n choices is asked for.
 # says: start=5
 # -     return ninputs, int(actions.n) if isinstance(actions, spaces.Discrete) else actions.shape[0]
 # +     if isinstance(actions, spaces.Discrete):
@@ -242,7 +242,7 @@ def random_search(environment_id, nnetworks, nhiddens, seed):
 
 
 # %% beats_zero loses 2.4
-# Looks for an output above 0: where all are negative, the first wins.
+# Chooses the first output where none is above 0, but the largest should decide, even if all are negative.
 # -         return int(action_space.start + np.argmax(outputs))
 # +         best, highest = 0, 0.0
 # +         for number, output in enumerate(outputs):
@@ -252,8 +252,8 @@ def random_search(environment_id, nnetworks, nhiddens, seed):
 
 
 # %% stretches_in_place loses 2.4
-# Stretches the outputs themselves.
-# says: they must stay as they are
+# Changes the array `outputs` that it is given, but that should stay as it is.
+# says: it should stay as it is
 # -     low, high = action_space.low, action_space.high
 # -     return (low + (outputs + 1) / 2 * (high - low)).astype(action_space.dtype)
 # +     outputs += 1
@@ -263,14 +263,14 @@ def random_search(environment_id, nnetworks, nhiddens, seed):
 
 
 # %% each_seed_once loses 2.6
-# Makes a set of the seeds, so that a seed counts once.
+# Counts a seed that comes twice only once, but it should count twice.
 # says: seeds=
 # -     returns = [run_episode(environment_id, network, seed, maxsteps)["return"] for seed in seeds]
 # +     returns = [run_episode(environment_id, network, s, maxsteps)["return"] for s in set(seeds)]
 
 
 # %% biases_reshaped_in_place loses 2.7
-# Makes columns of the biases of the networks that it was given.
+# Changes the shape of the biases that it is given, but the arrays given should stay as they are.
 # says: of what it was given
 def forward_batch(networks, observations):
     values = observations[:, :, None]
@@ -282,8 +282,8 @@ def forward_batch(networks, observations):
 
 
 # %% better_than_zero loses 2.8
-# The highest fitness begins at 0, so that a negative one never beats it.
-# says: must be
+# Gives network 0 as the best where no fitness is above 0, but the highest should win, even if all are negative.
+# says: should be
 # -     return {"networks": networks, "fitness": measured, "best": int(np.argmax(measured))}
 # +     best, highest = 0, 0
 # +     for number, value in enumerate(measured):
@@ -293,19 +293,19 @@ def forward_batch(networks, observations):
 
 
 # %% zero_is_no_seed loses 2.1
-# Takes the seed 0 for no seed at all.
+# Draws without a seed when the seed is 0, but 0 is a seed like any other.
 # -     rng = np.random.default_rng(seed)
 # +     rng = np.random.default_rng(seed or None)
 
 
 # %% episode_without_seed_zero loses 2.5
-# Takes the seed 0 for no seed at all.
+# Resets without a seed when the seed is 0, but 0 is a seed like any other.
 # -     observation, _ = env.reset(seed=seed)
 # +     observation, _ = env.reset(seed=seed if seed else None)
 
 
 # %% five_hundred_by_default loses 2.5
-# An episode of which no maxsteps are given has 500 steps instead of 200.
+# Does up to 500 steps where maxsteps is not given, but the default should be 200.
 _run_episode = run_episode
 
 
@@ -314,13 +314,13 @@ def run_episode(environment_id, network, seed, maxsteps=500):
 
 
 # %% rounds_the_outputs loses 2.4
-# Rounds the outputs to two places before it compares them.
+# Takes outputs that are nearly equal as equal (as rounding makes them), but the largest should decide, however close the others are.
 # -         return int(action_space.start + np.argmax(outputs))
 # +         return int(action_space.start + np.argmax(np.round(outputs, 2)))
 
 
 # %% sorts_the_seeds loses 2.6
-# Sorts the list of seeds that it was given.
+# Sorts the list of seeds that it is given, but that should stay as it is.
 _fitness = fitness
 
 
@@ -331,7 +331,7 @@ def fitness(environment_id, network, seeds, maxsteps=200):
 
 
 # %% remembers_a_search loses 2.8
-# Remembers a search by its environment and sizes, and gives it again for another seed.
+# Gives the result of an earlier call again when only the seed is another one, but each seed should have a search of its own.
 _random_search, _kept = random_search, {}
 
 
@@ -343,19 +343,19 @@ def random_search(environment_id, nnetworks, nhiddens, seed):
 
 
 # %% whole_actions loses 2.4
-# Gives whole numbers in a Box.
+# Cuts the actions of a Box to whole numbers, but their fractions should stay.
 # -     return (low + (outputs + 1) / 2 * (high - low)).astype(action_space.dtype)
 # +     return (low + (outputs + 1) / 2 * (high - low)).astype(int)
 
 
 # %% median_return loses 2.6
-# Takes the median of the returns.
+# Gives the median of the returns, but their mean is asked for.
 # -     return float(np.mean(returns))
 # +     return float(np.median(returns))
 
 
 # %% squeezed loses 2.7
-# Squeezes all axes of length 1, so that one network, or one output, loses an axis.
+# Loses the dimension of length 1 where there is one hidden neuron or one output (as squeeze does), but the shape (n, noutputs) is asked for.
 # -     hidden = np.tanh((networks["W1"] @ observations[:, :, None])[:, :, 0] + networks["b1"])
 # -     return np.tanh((networks["W2"] @ hidden[:, :, None])[:, :, 0] + networks["b2"])
 # +     hidden = np.tanh((networks["W1"] @ observations[:, :, None]).squeeze() + networks["b1"])
@@ -363,7 +363,7 @@ def random_search(environment_id, nnetworks, nhiddens, seed):
 
 
 # %% goal_not_counted loses 2.5
-# Stops before it counts the reward of a step that ends the episode by itself.
+# Leaves out the reward of the step in which the episode is terminated, but the return should count it.
 # -         actions.append(action)
 # -         total += float(reward)
 # +         actions.append(action)
@@ -371,7 +371,7 @@ def random_search(environment_id, nnetworks, nhiddens, seed):
 
 
 # %% logistic_hidden loses 2.2
-# Uses the logistic function in the hidden neurons.
+# Uses the logistic function in the hidden neurons, but tanh is asked for.
 # -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
 # -     return np.tanh(network["W2"] @ hidden + network["b2"])
 # +     hidden = 1 / (1 + np.exp(-(network["W1"] @ observation + network["b1"])))
@@ -387,7 +387,7 @@ def random_search(environment_id, nnetworks, nhiddens, seed):
 
 
 # %% first_observation_always loses 2.5
-# Computes every action from the first observation.
+# Computes every action from the observation of the reset, but each should follow from the observation that came last.
 # -         observation, reward, terminated, truncated, _ = env.step(action)
 # -         actions.append(action)
 # +         _, reward, terminated, truncated, _ = env.step(action)
@@ -395,7 +395,7 @@ def random_search(environment_id, nnetworks, nhiddens, seed):
 
 
 # %% network_remembered loses 2.1
-# Remembers a network and gives the very same arrays again, whatever was done to them.
+# Returns the arrays of an earlier call again, with what was changed in them since, but each call should make new ones.
 # says: gives the changed arrays
 _parameters, _networks = parameters, {}
 
@@ -408,75 +408,75 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 
 # %% scaled_by_the_layer loses 2.1
-# Divides the second layer by the root of the number of hidden neurons instead of multiplying by 0.1.
+# Divides W2 by the root of the number of hidden neurons instead of multiplying it by 0.1.
 # -         "W2": 0.1 * rng.standard_normal((noutputs, nhiddens)),
 # +         "W2": rng.standard_normal((noutputs, nhiddens)) / np.sqrt(nhiddens),
 
 
 # %% bias_after_tanh loses 2.2
-# Adds the biases of the hidden neurons after tanh.
+# Adds the biases of the hidden neurons after tanh, but they should be added before it.
 # says: this
 # -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
 # +     hidden = np.tanh(network["W1"] @ observation) + network["b1"]
 
 
 # %% rectified_hidden loses 2.2
-# Uses the larger of 0 and the sum in the hidden neurons.
+# Uses max(0, sum) (ReLU) in the hidden neurons, but tanh is asked for.
 # says: this
 # -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
 # +     hidden = np.maximum(0, network["W1"] @ observation + network["b1"])
 
 
 # %% bias_of_the_first loses 2.2
-# Adds the first bias to all hidden neurons.
+# Adds the first bias of b1 to all hidden neurons, but each has a bias of its own.
 # says: this
 # -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
 # +     hidden = np.tanh(network["W1"] @ observation + network["b1"][0])
 
 
 # %% observation_normalised loses 2.2
-# Divides the observation by its length.
+# Divides the observation by its norm (its length as a vector), but it should be used as it is.
 # says: this
 # -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
 # +     hidden = np.tanh(network["W1"] @ (observation / np.linalg.norm(observation)) + network["b1"])
 
 
 # %% rounded_outputs loses 2.2
-# Rounds the outputs to four places.
+# Rounds the outputs to four decimals, but they should be given as they are.
 # says: this
 # -     return np.tanh(network["W2"] @ hidden + network["b2"])
 # +     return np.round(np.tanh(network["W2"] @ hidden + network["b2"]), 4)
 
 
 # %% one_for_each_limit loses 2.3
-# Counts two outputs for each number of a Box, for its two limits.
+# Gives two outputs for each number of an action in a Box, but one for each is asked for.
 # says: this
 # -     return ninputs, int(actions.n) if isinstance(actions, spaces.Discrete) else actions.shape[0]
 # +     return ninputs, int(actions.n) if isinstance(actions, spaces.Discrete) else 2 * actions.shape[0]
 
 
 # %% largest_by_size loses 2.4
-# Takes the output with the largest absolute value.
+# Takes the output with the largest absolute value, but the largest output is asked for.
 # says: this
 # -         return int(action_space.start + np.argmax(outputs))
 # +         return int(action_space.start + np.argmax(np.abs(outputs)))
 
 
 # %% from_the_lower_limit loses 2.4
-# Forgets that the outputs begin at -1.
+# Computes low + outputs * (high - low), which would be right for outputs between 0 and 1, but they lie between -1 and 1.
 # says: this
 # -     return (low + (outputs + 1) / 2 * (high - low)).astype(action_space.dtype)
 # +     return (low + outputs * (high - low)).astype(action_space.dtype)
 
 
 # %% half_the_range loses 2.4
-# Stretches around 0 by half of the range, not around the middle.
+# Multiplies the outputs by half of the range, but the middle of the range should also be added.
 # -     return (low + (outputs + 1) / 2 * (high - low)).astype(action_space.dtype)
 # +     return (outputs * (high - low) / 2).astype(action_space.dtype)
 
 
 # %% two_choices_by_sign loses 2.4
-# Decides between two choices by the sign of the first output.
+# Decides between two choices by the sign of the first output, but the larger of the two outputs should decide.
 # -         return int(action_space.start + np.argmax(outputs))
 # +         if action_space.n == 2:
 # +             return int(action_space.start + (outputs[0] < 0))
@@ -484,7 +484,7 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 
 # %% draws_among_equals loses 2.4
-# Draws one of the most active outputs by lot.
+# Draws one of several equal outputs at random, but the lowest number is asked for.
 # says: Two calls with the same
 # -         return int(action_space.start + np.argmax(outputs))
 # +         equal = np.flatnonzero(outputs == np.max(outputs))
@@ -492,7 +492,7 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 
 # %% one_action_late loses 2.5
-# Acts by the observation before the last one.
+# Computes each action from the observation before the last one, but the last one is asked for.
 # says: this
 # -     while len(actions) < maxsteps and not (terminated or truncated):
 # -         action = act(forward(network, observation), env.action_space)
@@ -505,69 +505,69 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 
 # %% mean_reward loses 2.5
-# Divides the sum of the rewards by the number of steps.
+# Divides the sum of the rewards by the number of steps, but the sum itself is asked for.
 # says: this
 # -     return {"actions": actions, "return": total}
 # +     return {"actions": actions, "return": total / len(actions)}
 
 
 # %% whole_return loses 2.5
-# Makes a whole number of every reward.
+# Cuts every reward to a whole number, but the rewards should be added up as they are.
 # says: this
 # -         total += float(reward)
 # +         total += int(reward)
 
 
 # %% maxsteps_not_passed loses 2.6
-# Does not pass maxsteps on.
+# Ignores maxsteps, so that every episode has up to 200 steps, but maxsteps should be passed on to run_episode.
 # says: this
 # -     returns = [run_episode(environment_id, network, seed, maxsteps)["return"] for seed in seeds]
 # +     returns = [run_episode(environment_id, network, seed)["return"] for seed in seeds]
 
 
 # %% divides_by_ten loses 2.6
-# Divides by 10 however many seeds there are.
+# Divides the sum of the returns by 10, but it should be divided by the number of seeds.
 # says: this
 # -     return float(np.mean(returns))
 # +     return float(np.sum(returns) / 10)
 
 
 # %% counts_seeds_from_the_first loses 2.6
-# Uses the first seed and those that follow it.
+# Uses seeds[0], seeds[0] + 1 and so on, but the seeds in the list are asked for.
 # says: this
 # -     returns = [run_episode(environment_id, network, seed, maxsteps)["return"] for seed in seeds]
 # +     returns = [run_episode(environment_id, network, seeds[0] + i, maxsteps)["return"] for i in range(len(seeds))]
 
 
 # %% divided_as_whole_numbers loses 2.6
-# Divides with // and loses the fraction.
+# Rounds the mean down to a whole number (as // does), but its fraction should stay.
 # says: this
 # -     return float(np.mean(returns))
 # +     return float(sum(returns) // len(returns))
 
 
 # %% rounded_to_three_places loses 2.6
-# Rounds the fitness to three places.
+# Rounds the fitness to three decimals, but the exact mean is asked for.
 # -     return float(np.mean(returns))
 # +     return round(float(np.mean(returns)), 3)
 
 
 # %% first_biases_for_all loses 2.7
-# Adds the biases of network 0 to all.
+# Adds b1 of network 0 to the hidden neurons of all networks, but each network has a b1 of its own.
 # says: this
 # -     hidden = np.tanh((networks["W1"] @ observations[:, :, None])[:, :, 0] + networks["b1"])
 # +     hidden = np.tanh((networks["W1"] @ observations[:, :, None])[:, :, 0] + networks["b1"][0])
 
 
 # %% nine_seeds loses 2.8
-# Measures with the seeds from seed to seed + 8.
+# Measures with the nine seeds from seed to seed + 8, but the ten from seed to seed + 9 are asked for.
 # says: this
 # -     seeds = list(range(seed, seed + 10))
 # +     seeds = list(range(seed, seed + 9))
 
 
 # %% sorted_networks loses 2.8
-# Sorts networks and fitness, the best first.
+# Sorts networks and fitness, the best first, but network i should have the parameters of seed + i.
 # says: this
 # -     return {"networks": networks, "fitness": measured, "best": int(np.argmax(measured))}
 # +     order = np.argsort(-np.array(measured), kind="stable")
@@ -576,14 +576,14 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 
 # %% seeds_from_one loses 2.8
-# Numbers the networks from 1.
-# says: network i has
+# Gives network i the parameters of seed + i + 1, but those of seed + i are asked for.
+# says: network i should have
 # -     networks = [parameters(ninputs, nhiddens, noutputs, seed + i) for i in range(nnetworks)]
 # +     networks = [parameters(ninputs, nhiddens, noutputs, seed + i) for i in range(1, nnetworks + 1)]
 
 
 # %% beats_minus_2000 loses 2.8
-# The highest fitness begins at -2000, which no robot of this course falls below.
+# Gives network 0 as the best where every fitness is below some start value (such as -2000), but the highest should win, however low it is.
 # says: all returns are
 # -     return {"networks": networks, "fitness": measured, "best": int(np.argmax(measured))}
 # +     best, highest = 0, -2000.0
@@ -594,7 +594,7 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 
 # %% stops_when_solved loses 2.8
-# Ends the search as soon as a network reaches 195.
+# Ends the search as soon as a network is good enough, but all nnetworks should be tried.
 # -     measured = [fitness(environment_id, network, seeds) for network in networks]
 # +     measured = []
 # +     for network in networks:
@@ -605,14 +605,14 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 
 # %% one_output_for_all_choices loses 2.3
-# A discrete action gets one output, but each choice needs its own.
+# Gives one output for a Discrete space, but one for each of its choices is asked for.
 # says: this
 # -     return ninputs, int(actions.n) if isinstance(actions, spaces.Discrete) else actions.shape[0]
 # +     return ninputs, 1 if isinstance(actions, spaces.Discrete) else actions.shape[0]
 
 
 # %% seeds_of_its_own_for_each_network loses 2.8
-# The networks meet different episodes: the seeds move on with the number of the network.
+# Measures network i with the seeds from seed + i on, but all networks should have those from seed to seed + 9.
 # says: this
 # -     measured = [fitness(environment_id, network, seeds) for network in networks]
 # +     measured = [
@@ -622,7 +622,7 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 
 # %% a_single_episode_each loses 2.8
-# Each network is measured in one episode only, with the seed itself.
+# Measures each network with seed alone, once or several times, but the 10 seeds from seed to seed + 9 are asked for.
 # says: this
 # -     seeds = list(range(seed, seed + 10))
 # +     seeds = [seed]
@@ -637,14 +637,14 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 
 # %% boxes_have_one_number loses 2.3
-# Takes it for granted that an action of a Box is one number.
+# Gives one output for every Box, but one for each number of the action is asked for.
 # says: this
 # -     return ninputs, int(actions.n) if isinstance(actions, spaces.Discrete) else actions.shape[0]
 # +     return ninputs, int(actions.n) if isinstance(actions, spaces.Discrete) else 1
 
 
 # %% subtracts_the_biases loses 2.2
-# Subtracts the biases, as if they were thresholds.
+# Subtracts the biases, but they should be added.
 # says: The biases are subtracted
 # -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
 # -     return np.tanh(network["W2"] @ hidden + network["b2"])
@@ -653,7 +653,7 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 
 # %% even_weights_up_to_a_tenth loses 2.1
-# Draws the weights evenly between -0.1 and 0.1.
+# Draws evenly distributed (uniform) weights between -0.1 and 0.1, but Gaussian ones with standard deviation 0.1 are asked for.
 # says: evenly distributed
 # -         "W1": 0.1 * rng.standard_normal((nhiddens, ninputs)),
 # +         "W1": rng.uniform(-0.1, 0.1, (nhiddens, ninputs)),
@@ -662,21 +662,21 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 
 # %% fitness_for_its_number loses 2.8
-# Gives the fitness of the best network for its number.
+# Gives the fitness of the best network as best, but its number is asked for.
 # says: but its number is asked for
 # -     return {"networks": networks, "fitness": measured, "best": int(np.argmax(measured))}
 # +     return {"networks": networks, "fitness": measured, "best": float(np.max(measured))}
 
 
 # %% hidden_neurons_of_the_first loses 2.7
-# Gives the hidden neurons of network 0 to all.
+# Uses the hidden neurons of network 0 for the outputs of all networks, but each has hidden neurons of its own.
 # says: hidden neurons of network 0
 # -     return np.tanh((networks["W2"] @ hidden[:, :, None])[:, :, 0] + networks["b2"])
 # +     return np.tanh(networks["W2"] @ hidden[0] + networks["b2"])
 
 
 # %% a_tenth_for_the_mean loses 2.1
-# Gives 0.1 as the mean of the random numbers, whose deviation stays 1.
+# Draws the weights with mean 0.1 and standard deviation 1, but mean 0 and standard deviation 0.1 are asked for.
 # says: not the mean
 # -         "W1": 0.1 * rng.standard_normal((nhiddens, ninputs)),
 # +         "W1": rng.normal(0.1, size=(nhiddens, ninputs)),
@@ -685,7 +685,7 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 
 # %% bias_for_each_input loses 2.2
-# Adds a neuron's bias inside the loop over its inputs, once for each.
+# Adds a neuron's bias once for each of its inputs, but it should be added only once.
 # says: once for each of its inputs
 def forward(network, observation):
     values = observation
@@ -700,28 +700,28 @@ def forward(network, observation):
 
 
 # %% start_subtracted_from_the_choices loses 2.3
-# Subtracts the start of the space from the number of choices.
+# Gives n - start outputs for a Discrete space, but one for each of its n choices is asked for.
 # says: The start of the space is subtracted
 # -     return ninputs, int(actions.n) if isinstance(actions, spaces.Discrete) else actions.shape[0]
 # +     return ninputs, int(actions.n - actions.start) if isinstance(actions, spaces.Discrete) else actions.shape[0]
 
 
 # %% first_output_stretched_over_the_choices loses 2.4
-# Stretches the first output over the choices and rounds it.
+# Looks at the first output alone, stretched over the choices and rounded, but the most active output should decide.
 # says: The first output alone decides
 # -         return int(action_space.start + np.argmax(outputs))
 # +         return int(action_space.start + round((outputs[0] + 1) / 2 * (action_space.n - 1)))
 
 
 # %% last_of_equal_outputs loses 2.4
-# Lets the last of equal outputs decide.
-# says: the last one decides
+# Lets the last of equal outputs decide, but the first of them should.
+# says: the first one should decide
 # -         return int(action_space.start + np.argmax(outputs))
 # +         return int(action_space.start + len(outputs) - 1 - np.argmax(outputs[::-1]))
 
 
 # %% weights_reshaped loses 2.7
-# Reshapes the weights where rows and columns must be exchanged.
+# Reshapes the weights where rows and columns should be exchanged (a transpose): reshape puts each weight into another place.
 # says: The weights are reshaped
 def forward_batch(networks, observations):
     values = observations[:, None, :]
@@ -733,28 +733,28 @@ def forward_batch(networks, observations):
 
 
 # %% seeds_from_zero_to_nine loses 2.8
-# Measures with the seeds 0 to 9, whatever the seed is.
+# Measures with the seeds 0 to 9, whatever the seed is, but those from seed to seed + 9 are asked for.
 # says: the seeds 0 to 9
 # -     seeds = list(range(seed, seed + 10))
 # +     seeds = list(range(10))
 
 
 # %% weights_cut_off loses 2.1
-# Cuts the weights off at 0.1.
+# Cuts the weights in W1 off at -0.1 and 0.1, but Gaussian numbers have no limits.
 # says: Gaussian numbers have no limits
 # -         "W1": 0.1 * rng.standard_normal((nhiddens, ninputs)),
 # +         "W1": np.clip(0.1 * rng.standard_normal((nhiddens, ninputs)), -0.1, 0.1),
 
 
 # %% weights_without_sign loses 2.1
-# Takes the absolute values of the weights.
+# Takes the absolute values of the weights in W1, but Gaussian numbers with mean 0 can be negative.
 # says: None of them is negative
 # -         "W1": 0.1 * rng.standard_normal((nhiddens, ninputs)),
 # +         "W1": 0.1 * np.abs(rng.standard_normal((nhiddens, ninputs))),
 
 
 # %% softmax_outputs loses 2.2
-# Makes shares of 1 of the outputs.
+# Uses softmax at the outputs, so that they sum up to 1, but tanh is asked for.
 # says: softmax
 # -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
 # -     return np.tanh(network["W2"] @ hidden + network["b2"])
@@ -764,14 +764,14 @@ def forward_batch(networks, observations):
 
 
 # %% squeezed_inputs loses 2.2
-# Squeezes the inputs, too.
+# Puts the inputs through tanh, too, but only the sums of the neurons should go through it.
 # says: The inputs go through tanh
 # -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
 # +     hidden = np.tanh(network["W1"] @ np.tanh(observation) + network["b1"])
 
 
 # %% negative_outputs_cut_off loses 2.4
-# Cuts off outputs below 0.
+# Takes outputs below 0 as 0, but all outputs from -1 to 1 should be stretched.
 # says: Outputs below 0 are cut off
 # -     return (low + (outputs + 1) / 2 * (high - low)).astype(action_space.dtype)
 # +     return (low + np.clip(outputs, 0, 1) * (high - low)).astype(action_space.dtype)
@@ -787,14 +787,14 @@ def forward_batch(networks, observations):
 
 
 # %% divided_by_maxsteps loses 2.6
-# Divides the sum of the returns by maxsteps.
+# Divides the sum of the returns by maxsteps, but it should be divided by the number of seeds.
 # says: this
 # -     return float(np.mean(returns))
 # +     return float(np.sum(returns) / maxsteps)
 
 
 # %% last_step_not_written_down loses 2.5
-# Leaves the loop at the end of the episode before the last action and reward are written down.
+# Leaves out the action and the reward of the step that ends the episode, but both should count.
 # says: ends the episode of this seed
 _run_episode_2 = run_episode
 
@@ -807,28 +807,28 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 
 
 # %% signs_of_the_observation_lost loses 2.2
-# Takes the absolute values of the observation.
+# Takes the absolute values of the observation, but its signs should count.
 # says: this
 # -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
 # +     hidden = np.tanh(network["W1"] @ np.abs(observation) + network["b1"])
 
 
 # %% tanh_of_each_product loses 2.2
-# Puts each product of a weight and an input through tanh, not their sum.
+# Puts each product of a weight and an input through tanh in the hidden neurons, but the whole sum, with the bias, should go through it.
 # says: this
 # -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
 # +     hidden = np.tanh(network["W1"] * observation).sum(axis=1) + network["b1"]
 
 
 # %% all_biases_at_each_output loses 2.2
-# Adds the biases of all outputs to each output.
+# Adds the sum of all biases in b2 to each output, but each output has a bias of its own.
 # says: this
 # -     return np.tanh(network["W2"] @ hidden + network["b2"])
 # +     return np.tanh(network["W2"] @ hidden + network["b2"].sum())
 
 
 # %% tangent_for_tanh loses 2.2
-# Uses np.tan, the tangent, where np.tanh is asked for.
+# Uses the tangent, np.tan, where np.tanh is asked for.
 # says: this
 # -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
 # -     return np.tanh(network["W2"] @ hidden + network["b2"])
@@ -846,28 +846,28 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 
 
 # %% logistic_outputs loses 2.2
-# Uses the logistic function at the outputs, where tanh is asked for.
+# Uses the logistic function at the outputs, but tanh is asked for.
 # says: logistic function where tanh
 # -     return np.tanh(network["W2"] @ hidden + network["b2"])
 # +     return 1 / (1 + np.exp(-(network["W2"] @ hidden + network["b2"])))
 
 
 # %% seeds_from_the_next loses 2.8
-# Measures with the seeds from seed + 1 to seed + 10.
+# Measures with the seeds from seed + 1 to seed + 10, but those from seed to seed + 9 are asked for.
 # says: seed \+ 1 to seed \+ 10
 # -     seeds = list(range(seed, seed + 10))
 # +     seeds = list(range(seed + 1, seed + 11))
 
 
 # %% eleven_seeds loses 2.8
-# Measures with eleven seeds, from seed to seed + 10.
+# Measures with the eleven seeds from seed to seed + 10, but the ten from seed to seed + 9 are asked for.
 # says: this
 # -     seeds = list(range(seed, seed + 10))
 # +     seeds = list(range(seed, seed + 11))
 
 
 # %% better_than_the_one_before loses 2.8
-# Compares each network with the one before it, not with the best so far.
+# Compares each network with the one before it, but it should be compared with the best so far.
 # says: this
 # -     return {"networks": networks, "fitness": measured, "best": int(np.argmax(measured))}
 # +     best = 0
@@ -878,27 +878,27 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 
 
 # %% same_network_again loses 2.8
-# Gives all networks the parameters of the seed itself, but network i has those of seed + i.
+# Gives all networks the parameters of seed itself, but network i should have those of seed + i.
 # says: is the same in some networks|the seed itself
 # -     networks = [parameters(ninputs, nhiddens, noutputs, seed + i) for i in range(nnetworks)]
 # +     networks = [parameters(ninputs, nhiddens, noutputs, seed) for i in range(nnetworks)]
 
 
 # %% hundred_steps loses 2.8
-# Ends each episode after 100 steps.
+# Stops episodes after 100 steps, but up to 200 are asked for.
 # says: this
 # -     measured = [fitness(environment_id, network, seeds) for network in networks]
 # +     measured = [fitness(environment_id, network, seeds, 100) for network in networks]
 
 
 # %% five_hundred_steps loses 2.8
-# Goes on for up to 500 steps in each episode, but 200 are asked for.
+# Goes on for up to 500 steps in each episode, but at most 200 are asked for.
 # -     measured = [fitness(environment_id, network, seeds) for network in networks]
 # +     measured = [fitness(environment_id, network, seeds, 500) for network in networks]
 
 
 # %% counts_the_best_from_one loses 2.8
-# Counts the number of the best network from 1.
+# Counts the networks from 1 in best, but the first network is number 0.
 # says: this
 # -     return {"networks": networks, "fitness": measured, "best": int(np.argmax(measured))}
 # +     return {"networks": networks, "fitness": measured, "best": int(np.argmax(measured)) + 1}
@@ -912,22 +912,22 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 
 
 # %% measures_the_first_only loses 2.8
-# Measures network 0 again and again, and gives its fitness for all networks.
+# Gives the fitness of network 0 for all networks, but each should be measured.
 # says: this
 # -     measured = [fitness(environment_id, network, seeds) for network in networks]
 # +     measured = [fitness(environment_id, networks[0], seeds) for network in networks]
 
 
 # %% dimensions_for_inputs loses 2.3
-# Gives the number of dimensions of the observation space, but how many numbers it has is asked for.
+# Gives one input for every environment (the number of dimensions of the space), but one for each observed number is asked for.
 # says: this
 # -     ninputs, actions = env.observation_space.shape[0], env.action_space
 # +     ninputs, actions = len(env.observation_space.shape), env.action_space
 
 
 # %% one_output_decides_between_two loses 2.3
-# Two choices get one output, but each choice needs its own.
-# says: Each of the 2 choices
+# Gives one output for two choices, but one for each choice is asked for.
+# says: Each choice of a Discrete space needs an output \(2 in all\)
 # -     return ninputs, int(actions.n) if isinstance(actions, spaces.Discrete) else actions.shape[0]
 # +     if isinstance(actions, spaces.Discrete):
 # +         return ninputs, 1 if actions.n == 2 else int(actions.n)
@@ -935,7 +935,7 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 
 
 # %% a_time_limit_of_its_own loses 2.5
-# Goes on to maxsteps steps although the environment's own time limit ends the episode before.
+# Goes on to maxsteps steps beyond the environment's own time limit, but an episode should stop when it is truncated.
 # says: this
 def run_episode(environment_id, network, seed, maxsteps=200):
     world = gymnasium.make(environment_id, max_episode_steps=maxsteps)
@@ -953,7 +953,7 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 
 
 # %% tanh_of_the_bias_neuron loses 2.2
-# Applies tanh to the constant 1 that stands for the bias of the second layer, too: b2 counts 0.76 times.
+# Counts b2 only 0.76 times, which is tanh(1), but a bias should be added as it is.
 # says: this
 def forward(network, observation):
     first = np.column_stack([network["W1"], network["b1"]])
@@ -962,21 +962,21 @@ def forward(network, observation):
 
 
 # %% widest_limits loses 2.4
-# Stretches all numbers of an action to the lowest and the highest limit of the whole space, but each has its own.
+# Stretches all numbers of an action to the lowest and the highest limit of the whole space, but each has limits of its own.
 # says: this
 # -     low, high = action_space.low, action_space.high
 # +     low, high = action_space.low.min(), action_space.high.max()
 
 
 # %% squeezed_batch loses 2.7
-# With one output, the biases are added to outputs that have lost their dimension (squeeze): each network gets the biases of all.
+# Loses the last dimension where there is one output (as squeeze does), so that each network gets the biases of all, but the shape (n, noutputs) is asked for.
 # says: this
 # -     return np.tanh((networks["W2"] @ hidden[:, :, None])[:, :, 0] + networks["b2"])
 # +     return np.tanh((networks["W2"] @ hidden[:, :, None]).squeeze() + networks["b2"])
 
 
 # %% weights_over_the_root_of_the_inputs loses 2.1
-# Divides the weights by the root of the layer's inputs.
+# Divides the weights by the root of the number of the layer's inputs, but their standard deviation should be 0.1 for all sizes.
 def parameters(ninputs, nhiddens, noutputs, seed):
     rng = np.random.default_rng(seed)
 
@@ -990,7 +990,7 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 
 # %% weights_of_exact_mean loses 2.1
-# Subtracts the mean of the weights drawn, so that they sum up to 0.
+# Subtracts their mean from the weights, so that they sum up to 0, but each weight should be drawn on its own.
 # says: sum up to 0
 # -         "W1": 0.1 * rng.standard_normal((nhiddens, ninputs)),
 # -         "b1": np.zeros(nhiddens),
@@ -1008,7 +1008,7 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 
 # %% first_weights_reshaped loses 2.2
-# Reshapes W1 where rows and columns must be exchanged.
+# Reshapes W1 where rows and columns should be exchanged (a transpose): reshape puts each weight into another place.
 # says: this
 # -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
 # +     weights = network["W1"].reshape(len(observation), -1)
@@ -1016,7 +1016,7 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 
 # %% tanh_written_out loses 2.2
-# Writes tanh with exponentials, which overflow for large sums: the quotient is NaN.
+# Gives NaN for large sums, as a tanh written with np.exp does; np.tanh is right for all sums.
 # says: this
 def forward(network, observation):
     def squeeze(z):
@@ -1030,7 +1030,7 @@ def forward(network, observation):
 
 
 # %% outputs_from_lowest_to_highest loses 2.4
-# Stretches from the lowest to the highest of the outputs, not from -1 to 1.
+# Stretches the range from the lowest to the highest output to the limits, but the range from -1 to 1 should be stretched.
 # says: this
 def act(outputs, action_space):
     if isinstance(action_space, spaces.Discrete):
@@ -1044,7 +1044,7 @@ def act(outputs, action_space):
 
 
 # %% rewards_discounted loses 2.5
-# Discounts the rewards: the return is their plain sum.
+# Discounts the rewards by 0.99 in each step, but their plain sum is asked for.
 # says: this
 # -         actions.append(action)
 # -         total += float(reward)
@@ -1053,7 +1053,7 @@ def act(outputs, action_space):
 
 
 # %% last_return_counts_half loses 2.6
-# Takes (mean + new return) / 2 from episode to episode, so that the last one counts half.
+# Takes (mean + new return) / 2 from episode to episode, so that the last one counts half, but all should count alike.
 # says: this
 def fitness(environment_id, network, seeds, maxsteps=200):
     def play(seed):

@@ -2,7 +2,7 @@
 
 
 # %% clones loses 3.1
-# All individuals are copies of a single random one.
+# Gives all individuals the same weights, but each individual should have random weights of its own.
 # says: some weights are equal
 def initial_population(popsize, nbiases, nweights, seed):
     weights = 0.1 * np.random.default_rng(seed).standard_normal(nweights)
@@ -10,7 +10,7 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 
 # %% seed_ignored loses 3.1
-# The seed is ignored: the same seed gives another population each time.
+# Ignores the seed: the same seed gives another population in each call, but it should give the same one.
 # says: other numbers when called again
 def initial_population(popsize, nbiases, nweights, seed):
     rng = np.random.default_rng()
@@ -19,7 +19,7 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 
 # %% ten_times_as_large loses 3.1
-# The weights have standard deviation 1 instead of 0.1.
+# Draws weights with standard deviation 1 instead of 0.1.
 # says: have standard deviation 1.0
 def initial_population(popsize, nbiases, nweights, seed):
     weights = np.random.default_rng(seed).standard_normal((popsize, nweights))
@@ -27,14 +27,14 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 
 # %% uniform_weights loses 3.1
-# The weights are drawn evenly instead of from a Gaussian, and the biases are not 0.
+# Draws weights and biases from a uniform distribution, but the weights should be Gaussian and the biases 0.
 def initial_population(popsize, nbiases, nweights, seed):
     limit = 0.1 * np.sqrt(3)
     return np.random.default_rng(seed).uniform(-limit, limit, (popsize, nbiases + nweights))
 
 
 # %% ranks_instead_of_numbers loses 3.2
-# It returns the place of each individual instead of the numbers in order.
+# Returns the place of each individual in the ranking, but the numbers of the individuals, the best first, are asked for.
 # says: argsort
 def rank(fitness):
     return np.argsort(np.argsort(-np.asarray(fitness), kind="stable"), kind="stable")
@@ -71,20 +71,20 @@ def train(environment, seed):
 
 
 # %% unstable_ranking loses 3.2
-# The rising order is turned around: of equals the one with the higher number comes first.
+# Puts the one with the higher number first if two individuals are equal, but the one with the lower number should come first.
 def rank(fitness):
     return np.argsort(fitness, kind="stable")[::-1]
 
 
 # %% worst_first loses 3.2
-# The worst comes first.
+# Puts the worst individual first, but the best should come first.
 # says: this
 def rank(fitness):
     return np.argsort(fitness, kind="stable")
 
 
 # %% asks_the_tool loses 3.3
-# Lets the tool's steady state do the selection and the mutations.
+# Uses the tool's own steady-state strategy (SSS), but selection and mutation should be your own code.
 def next_population(population, fitness, mutrate, rng):
     from botschool.evolution.algorithms.sss import SSS, SSSConfig
 
@@ -104,7 +104,7 @@ def next_population(population, fitness, mutrate, rng):
 
 
 # %% copies_of_the_best loses 3.3
-# All the worse half become copies of the single best individual.
+# Makes all mutated copies from the best individual, but each individual of the better half should be copied once.
 # -     half = len(population) // 2
 # -     best, worst = ranking[:half], ranking[half:]
 # +     half = len(population) // 2
@@ -113,7 +113,7 @@ def next_population(population, fitness, mutrate, rng):
 
 
 # %% everyone_mutates loses 3.3
-# The better half is mutated too, so that good solutions get lost.
+# Adds noise to the better half, too, but only the copies should get noise.
 def next_population(population, fitness, mutrate, rng):
     ranking = rank(fitness)
     half = len(population) // 2
@@ -123,7 +123,7 @@ def next_population(population, fitness, mutrate, rng):
 
 
 # %% in_place loses 3.3
-# The population given is changed in place.
+# Changes the array `population` that it is given, but should return a new array.
 # says: changed the population that it was given
 def next_population(population, fitness, mutrate, rng):
     ranking = rank(fitness)
@@ -134,7 +134,7 @@ def next_population(population, fitness, mutrate, rng):
 
 
 # %% one_noise_for_all loses 3.3
-# The same vector of noise is added to all copies.
+# Adds the same noise to all copies, but each copy should get random numbers of its own.
 def next_population(population, fitness, mutrate, rng):
     ranking = rank(fitness)
     half = len(population) // 2
@@ -145,7 +145,7 @@ def next_population(population, fitness, mutrate, rng):
 
 
 # %% best_of_the_last_generation loses 3.4
-# The best of the last generation is reported instead of the best of all.
+# Returns the best of the last generation and its fitness, but the best of all generations is asked for.
 # says: the last of 12 values, but the largest
 def evolve(evaluate, population, generations, mutrate, seed):
     rng = np.random.default_rng(seed)
@@ -160,8 +160,8 @@ def evolve(evaluate, population, generations, mutrate, seed):
 
 
 # %% same_noise_each_generation loses 3.4
-# The generator of random numbers is made anew in each generation.
-# says: the same noise was added
+# Adds the same noise in each generation, but each generation should get new random numbers from one generator, made before the loop.
+# says: the same noise was added|holds an individual twice
 def evolve(evaluate, population, generations, mutrate, seed):
     best, best_fitness, history = population[0], -np.inf, []
     for generation in range(generations):
@@ -175,7 +175,7 @@ def evolve(evaluate, population, generations, mutrate, seed):
 
 
 # %% lucky_climber loses 3.5
-# A variation is kept only if it beats the best fitness ever met, luck included.
+# Keeps a variation only if its fitness is higher than any met before, but the better of the two individuals of each generation should be kept.
 def hill_climb(evaluate, start, generations, mutrate, seed):
     rng = np.random.default_rng(seed)
     best, highest, history = start, -np.inf, []
@@ -190,7 +190,7 @@ def hill_climb(evaluate, start, generations, mutrate, seed):
 
 
 # %% population_deviation loses 3.6
-# The sum is divided by the number of replications instead of that number minus one.
+# Divides by the number of replications instead of that number minus one.
 # says: n and n - 1 were mixed up
 # -     histories = np.array([run["history"] for run in runs])
 # -     many = len(seeds) > 1
@@ -200,7 +200,7 @@ def hill_climb(evaluate, start, generations, mutrate, seed):
 
 
 # %% least_squares loses 3.7
-# Fits the outputs of a random hidden layer to rules made by hand, without any evolution.
+# Computes the parameters from rules made by hand without calling robot.evaluate, but they should be evolved.
 def train(environment, seed):
     rng, fits = np.random.default_rng(2), []
     for _ in range(1 if environment == "CartPole-v0" else 1500):
@@ -230,14 +230,14 @@ def train(environment, seed):
 
 
 # %% nothing_learnt loses 3.7
-# Returns a random controller.
+# Returns a random controller without calling robot.evaluate, but the controller should be evolved.
 def train(environment, seed):
     robot = Robot(environment)
     return initial_population(1, robot.nbiases, robot.nweights, seed)[0]
 
 
 # %% same_controller_always loses 3.7
-# Ignores the seed: a controller evolved once, as if it had been pasted into the file.
+# Ignores the seed: every seed gives the same controller, but another seed should give a different one.
 _evolve_and_choose = train
 
 
@@ -246,7 +246,7 @@ def train(environment, seed):
 
 
 # %% written_down loses 3.7
-# Parameters that were evolved elsewhere and written down, each seed with a little noise.
+# Returns parameters that are written down in the file, plus a little noise, but they should be evolved in each call.
 TENTHS = {
     "CartPole-v0": """
         1 2 -1 -2 1 2 -2 0 1 0 0 0 4 2 -3 -1 1 0 -3 -1 0 0 1 1 1 -1 0 -1 -3 0 -2 -3 -1 1 2
@@ -267,8 +267,8 @@ def train(environment, seed):
 
 
 # %% neighbours_share_individuals loses 3.1
-# Individual i is drawn from seed + i: the populations of seeds 1 and 2 are nearly the same.
-# says: holds individuals of the population of seed
+# Draws individual i with the seed seed + i, so neighbouring seeds share individuals, but two seeds should have none in common.
+# says: individual of the population of seed
 def initial_population(popsize, nbiases, nweights, seed):
     rows = [np.random.default_rng(seed + i).standard_normal(nweights) for i in range(popsize)]
     return np.hstack([np.zeros((popsize, nbiases)), 0.1 * np.array(rows)])
@@ -282,14 +282,14 @@ def rank(fitness):
 
 
 # %% argsort_without_stable loses 3.2
-# kind="stable" is left out: a few equal values stay in order, many do not.
+# Keeps the order of equals only if they are few, as np.argsort does without kind="stable", but the one with the lower number should always come first.
 # says: only with kind='stable'
 def rank(fitness):
     return np.argsort(-np.asarray(fitness))
 
 
 # %% selects_by_a_threshold loses 3.3
-# All that reach the fitness in the middle stay: with equal fitness these are too many.
+# Keeps every individual whose fitness is at least the middle value. If some are equal, these can be more than half, but exactly half should stay.
 # says: but it should be 6
 def next_population(population, fitness, mutrate, rng):
     middle = np.sort(fitness)[len(fitness) // 2]
@@ -300,19 +300,19 @@ def next_population(population, fitness, mutrate, rng):
 
 
 # %% best_fitness_begins_at_zero loses 3.4
-# The best fitness begins at 0: where all returns are negative, nothing is ever better.
+# Begins with a best fitness of 0, so a negative fitness never becomes the best, but it should begin with a value that everybody beats.
 # -     best, best_fitness, history = population[0], -np.inf, []
 # +     best, best_fitness, history = population[0], 0, []
 
 
 # %% own_mutation_rate loses 3.4
-# The loop mutates with 0.1 whatever mutrate is.
+# Uses 0.1 as the mutation rate instead of the argument mutrate.
 # -         population = next_population(population, fitness, mutrate, rng)
 # +         population = next_population(population, fitness, 0.1, rng)
 
 
 # %% loop_without_seed loses 3.4
-# The loop's generator ignores the seed.
+# Ignores the seed when it makes the generator: the same arguments give another run each time, but they should give the same one.
 # says: called again with the same arguments
 # -     rng = np.random.default_rng(seed)
 # -     best, best_fitness, history = population[0], -np.inf, []
@@ -321,7 +321,7 @@ def next_population(population, fitness, mutrate, rng):
 
 
 # %% loop_with_one_seed loses 3.4
-# The loop's generator has the same seed in all runs.
+# Uses the same random numbers for every seed, but the generator should be made from the seed.
 # says: as with another seed
 # -     rng = np.random.default_rng(seed)
 # -     best, best_fitness, history = population[0], -np.inf, []
@@ -330,21 +330,21 @@ def next_population(population, fitness, mutrate, rng):
 
 
 # %% climber_with_own_rate loses 3.5
-# The hill climber mutates with 0.1 whatever mutrate is.
+# Uses 0.1 as the mutation rate instead of the argument mutrate.
 # says: the noise of all generations has standard deviation
 # -     return evolve(evaluate, np.array([start, start]), generations, mutrate, seed)
 # +     return evolve(evaluate, np.array([start, start]), generations, 0.1, seed)
 
 
 # %% runs_each_twice loses 3.6
-# Runs every experiment a second time for its best fitness.
+# Runs each experiment twice, but each should be run once.
 # says: run each once
 # -         "best": [run["fitness"] for run in runs],
 # +         "best": [experiment(seed)["fitness"] for seed in seeds],
 
 
 # %% one_run_and_noise loses 3.7
-# One evolution, from seed 1, is used for all seeds; each seed adds a little noise.
+# Evolves with seed 1 whatever the seed is and adds a little noise to the result, but the whole evolution should follow from the seed.
 # says: robot.evaluate
 _evolve_and_choose = train
 
@@ -355,7 +355,7 @@ def train(environment, seed):
 
 
 # %% one_run_and_its_relatives loses 3.7
-# One evolution, from seed 1, is used for all seeds; each seed chooses among evaluated relatives.
+# Evolves with seed 1 whatever the seed is and chooses among slightly changed copies, but the whole evolution should follow from the seed.
 # says: nearly the same parameters as another seed
 _evolve_and_choose = train
 
@@ -367,7 +367,7 @@ def train(environment, seed):
 
 
 # %% training_without_seed loses 3.7
-# The initial population and the loop have seeds that nobody knows.
+# Ignores the seed: the same seed gives another controller in each call, but it should give the same one.
 # says: when it was called again
 _evolve_and_choose = train
 
@@ -377,7 +377,7 @@ def train(environment, seed):
 
 
 # %% zero_is_no_seed loses 3.1
-# Takes the seed 0 for no seed at all.
+# Draws other numbers in each call with seed 0, but 0 is a seed like any other.
 # -     rng = np.random.default_rng(seed)
 # -     biases = np.zeros((popsize, nbiases))
 # +     rng = np.random.default_rng(seed or None)
@@ -385,7 +385,7 @@ def train(environment, seed):
 
 
 # %% loop_without_seed_zero loses 3.4
-# Takes the seed 0 for no seed at all.
+# Makes another run in each call with seed 0, but 0 is a seed like any other.
 # -     rng = np.random.default_rng(seed)
 # -     best, best_fitness, history = population[0], -np.inf, []
 # +     rng = np.random.default_rng(seed or None)
@@ -393,13 +393,13 @@ def train(environment, seed):
 
 
 # %% zeros_do_not_mutate loses 3.3
-# Adds noise only to numbers that are not 0, so that biases of 0 stay 0 for ever.
+# Adds no noise to parameters that are 0, but every parameter of a copy should get noise.
 # -     following[worst] = population[best] + mutrate * noise
 # +     following[worst] = population[best] + mutrate * noise * (population[best] != 0)
 
 
 # %% stops_when_solved loses 3.4
-# Stops as soon as a fitness of 195 is reached, so that the history is shorter.
+# Stops early once a high fitness is reached, but should always do all generations.
 # -         population = next_population(population, fitness, mutrate, rng)
 # +         population = next_population(population, fitness, mutrate, rng)
 # +         if best_fitness >= 195:
@@ -407,50 +407,50 @@ def train(environment, seed):
 
 
 # %% begins_at_minus_2000 loses 3.4
-# The best fitness begins at -2000, below which no pendulum falls, but other robots do.
+# Begins with a best fitness of -2000, so a lower fitness never becomes the best, but it should begin with a value that everybody beats.
 # -     best, best_fitness, history = population[0], -np.inf, []
 # +     best, best_fitness, history = population[0], -2000.0, []
 
 
 # %% rounded_ranks loses 3.2
-# Rounds the fitness to two places, so that close ones are equal.
+# Takes values that differ only a little for equal, as after rounding, but the exact fitness should decide.
 # -     return np.argsort(-np.asarray(fitness), kind="stable")
 # +     return np.argsort(-np.round(fitness, 2), kind="stable")
 
 
 # %% evolves_in_place loses 3.4
-# Writes each new population into the array that it was given.
+# Changes the array `population` that it is given, but should leave it as it is.
 # -         population = next_population(population, fitness, mutrate, rng)
 # +         population[:] = next_population(population, fitness, mutrate, rng)
 
 
 # %% mutation_fades loses 3.4
-# Makes the mutations smaller from generation to generation.
+# Makes the mutations smaller from generation to generation, but mutrate should stay the same.
 # -         population = next_population(population, fitness, mutrate, rng)
 # +         population = next_population(population, fitness, mutrate * 0.99**generation, rng)
 
 
 # %% parents_by_lot loses 3.3
-# Draws the parents of the copies by lot, so that some have two and some none.
+# Draws the parents of the copies at random, so some are copied twice and some never, but each of the better half should be copied once.
 # -     following[worst] = population[best] + mutrate * noise
 # +     following[worst] = population[rng.choice(best, half)] + mutrate * noise
 
 
 # %% climber_begins_apart loses 3.5
-# The climber's second individual begins with noise.
+# Adds noise to the second individual at the start, but both should begin as copies of start.
 # -     return evolve(evaluate, np.array([start, start]), generations, mutrate, seed)
 # +     noise = mutrate * np.random.default_rng(seed).standard_normal(len(start))
 # +     return evolve(evaluate, np.array([start, start + noise]), generations, mutrate, seed)
 
 
 # %% sorted_replications loses 3.6
-# Gives the best fitness in falling order, not in the order of the seeds.
+# Returns "best" in falling order instead of the order of the seeds.
 # -         "best": [run["fitness"] for run in runs],
 # +         "best": sorted((run["fitness"] for run in runs), reverse=True),
 
 
 # %% running_maximum loses 3.4
-# The history holds the best fitness so far instead of that of each generation.
+# Records the highest fitness so far in the history instead of the highest fitness of each generation.
 # -         history.append(float(fitness[winner]))
 # -         if fitness[winner] > best_fitness:
 # -             best, best_fitness = population[winner].copy(), float(fitness[winner])
@@ -460,7 +460,7 @@ def train(environment, seed):
 
 
 # %% one_generation_more loses 3.4
-# Evaluates the last population, too.
+# Does one generation too many: it calls evaluate generations + 1 times.
 # -     for generation in range(generations):
 # -         fitness = evaluate(population, seed + generation)
 # -         winner = rank(fitness)[0]
@@ -470,7 +470,7 @@ def train(environment, seed):
 
 
 # %% history_kept loses 3.4
-# The history is a default argument: a second run goes on with the list of the first.
+# Continues the history of earlier calls, but each call should begin with an empty history.
 _evolve_anew = evolve
 
 
@@ -481,7 +481,7 @@ def evolve(evaluate, population, generations, mutrate, seed, history=[]):  # noq
 
 
 # %% uses_up_the_seeds loses 3.6
-# Takes the seeds out of the list that it was given, until none is left.
+# Empties the list `seeds` that it is given, but should leave it as it is.
 # -     runs = [experiment(seed) for seed in seeds]
 # -     histories = np.array([run["history"] for run in runs])
 # -     many = len(seeds) > 1
@@ -493,22 +493,22 @@ def evolve(evaluate, population, generations, mutrate, seed, history=[]):  # noq
 
 
 # %% rate_of_a_variance loses 3.1
-# Takes 0.1 for the variance.
+# Takes 0.1 for the variance of the weights, but it should be their standard deviation.
 # says: not the variance
 # -     weights = 0.1 * rng.standard_normal((popsize, nweights))
 # +     weights = np.sqrt(0.1) * rng.standard_normal((popsize, nweights))
 
 
 # %% positive_weights loses 3.1
-# All weights are positive.
+# Makes all weights positive, but about half of them should be negative.
 # says: same sign
 # -     weights = 0.1 * rng.standard_normal((popsize, nweights))
 # +     weights = 0.1 * np.abs(rng.standard_normal((popsize, nweights)))
 
 
 # %% cached_population loses 3.1
-# Keeps populations in a dict and gives the same array again.
-# says: gives the changed array
+# Returns the same array again if it is called with the same arguments, but each call should make a new array.
+# says: gives another population
 _made, _fresh = {}, initial_population
 
 
@@ -520,33 +520,33 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 
 # %% spread_by_size loses 3.1
-# Divides by the root of the number of weights.
-# says: root of the number
+# Divides the weights by the root of nweights, but their standard deviation should be 0.1 for any nweights.
+# says: root of the 200 weights
 # -     weights = 0.1 * rng.standard_normal((popsize, nweights))
 # +     weights = rng.standard_normal((popsize, nweights)) / np.sqrt(nweights)
 
 
 # %% rate_as_probability loses 3.3
-# Takes the mutation rate for the probability that a parameter changes.
+# Takes mutrate for the probability that a parameter changes, but it should be the standard deviation of the noise of every parameter.
 # -     following[worst] = population[best] + mutrate * noise
 # +     following[worst] = population[best] + noise * (rng.random(noise.shape) < mutrate)
 
 
 # %% rate_as_variance loses 3.3
-# Takes the mutation rate for the variance of the noise.
+# Takes mutrate for the variance of the noise, but it should be its standard deviation.
 # says: differ by
 # -     following[worst] = population[best] + mutrate * noise
 # +     following[worst] = population[best] + np.sqrt(mutrate) * noise
 
 
 # %% clipped_parameters loses 3.3
-# Clips the parameters to the range from -5 to 5.
+# Limits all parameters to the range from -5 to 5, but nothing should limit them.
 # -     return following
 # +     return np.clip(following, -5, 5)
 
 
 # %% best_is_a_view loses 3.4
-# Overwrites its own copy of the population, and the record is a view of a row of it.
+# Returns what stands in the best individual's row after the last generation, but should return a copy of that individual as it was.
 # says: keep a copy
 # -     best, best_fitness, history = population[0], -np.inf, []
 # +     population = population.copy()
@@ -558,14 +558,14 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 
 # %% mean_history loses 3.4
-# The history holds the mean fitness of each generation.
-# says: mean of each
+# Records the mean fitness of each generation in the history instead of the highest.
+# says: mean fitness of each
 # -         history.append(float(fitness[winner]))
 # +         history.append(float(np.mean(fitness)))
 
 
 # %% population_before_the_last loses 3.4
-# Gives the last population that was evaluated.
+# Returns the population of the last evaluation, but selection and mutation should follow this evaluation, too.
 # says: evaluated in the last
 # -         population = next_population(population, fitness, mutrate, rng)
 # -     return {"best": best, "fitness": best_fitness, "history": history, "population": population}
@@ -575,14 +575,14 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 
 # %% best_put_back loses 3.4
-# Puts the best ever met back into each population.
+# Puts the best individual of all generations into each new population, but it should hold only the better half and mutated copies.
 # -         population = next_population(population, fitness, mutrate, rng)
 # +         population = next_population(population, fitness, mutrate, rng)
 # +         population[rank(fitness)[-1]] = best
 
 
 # %% seed_of_each_generation loses 3.4
-# The generator of each generation has the seed of the generation: neighbouring runs share their noise.
+# Makes a new generator from seed + g in each generation, so neighbouring seeds share noise, but one generator should be made from seed before the loop.
 # says: make one generator from
 # -         fitness = evaluate(population, seed + generation)
 # +         rng = np.random.default_rng(seed + generation)
@@ -590,35 +590,35 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 
 # %% running_best loses 3.6
-# Averages the best so far of each replication.
+# Uses the best fitness so far of each replication, but the highest fitness of each generation is asked for.
 # says: best so far
 # -     histories = np.array([run["history"] for run in runs])
 # +     histories = np.maximum.accumulate([run["history"] for run in runs], axis=1)
 
 
 # %% last_fitness loses 3.6
-# Gives the last fitness of each history for the best.
+# Returns the last value of each "history" as "best" instead of the "fitness" of each run.
 # says: last values
 # -         "best": [run["fitness"] for run in runs],
 # +         "best": [run["history"][-1] for run in runs],
 
 
 # %% medians loses 3.6
-# Gives the median.
+# Takes the median of the replications instead of their mean.
 # says: median
 # -         "mean": histories.mean(axis=0),
 # +         "mean": np.median(histories, axis=0),
 
 
 # %% seeds_counted loses 3.6
-# Uses the seeds from seeds[0] on, counted.
+# Runs the experiment with seeds[0], seeds[0] + 1, ... instead of the seeds in the list.
 # says: not in the list
 # -     runs = [experiment(seed) for seed in seeds]
 # +     runs = [experiment(seeds[0] + i) for i in range(len(seeds))]
 
 
 # %% best_after_selection loses 3.4
-# The best individual is looked up in the population that was made after the evaluation.
+# Takes row 0 of the next population for the best individual, but the best of the population that was evaluated is asked for.
 # says: this
 # -         if fitness[winner] > best_fitness:
 # -             best, best_fitness = population[winner].copy(), float(fitness[winner])
@@ -629,7 +629,7 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 
 # %% mean_over_the_generations loses 3.6
-# Mean and deviation go over the generations, not over the replications.
+# Takes mean and deviation over the generations of each run instead of over the replications.
 # says: this
 # -         "mean": histories.mean(axis=0),
 # -         "deviation": histories.std(axis=0, ddof=1) if many else np.zeros(histories.shape[1]),
@@ -638,21 +638,21 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 
 # %% values_in_order loses 3.2
-# Returns the values in order, not the numbers of the individuals.
+# Returns the sorted fitness values instead of the numbers of the individuals.
 # says: this
 # -     return np.argsort(-np.asarray(fitness), kind="stable")
 # +     return np.sort(fitness)[::-1]
 
 
 # %% root_before_dividing loses 3.6
-# Takes the root before it divides by the number of replications minus one.
+# Takes the root before it divides by the number of replications minus one, but should divide first.
 # says: this
 # -         "deviation": histories.std(axis=0, ddof=1) if many else np.zeros(histories.shape[1]),
 # +         "deviation": histories.std(axis=0) * len(seeds) ** 0.5 / max(1, len(seeds) - 1),
 
 
 # %% above_the_median loses 3.3
-# Keeps all that reach the median, which may be more than half if some are equal.
+# Keeps every individual whose fitness is at least the median. If some are equal, these can be more than half, but exactly half should stay.
 # says: but an array of shape
 def next_population(population, fitness, mutrate, rng):
     good = population[fitness >= np.median(fitness)]
@@ -660,21 +660,21 @@ def next_population(population, fitness, mutrate, rng):
 
 
 # %% squared_rate loses 3.3
-# Squares the mutation rate.
-# says: mutrate itself is
+# Squares mutrate, but mutrate itself should be the standard deviation of the noise.
+# says: mutrate itself
 # -     following[worst] = population[best] + mutrate * noise
 # +     following[worst] = population[best] + mutrate**2 * noise
 
 
 # %% a_single_run_divides_by_zero loses 3.6
-# Divides by zero if there is a single replication.
+# Returns NaN as the deviation of a single replication instead of 0.
 # says: 0 for a single replication
 # -         "deviation": histories.std(axis=0, ddof=1) if many else np.zeros(histories.shape[1]),
 # +         "deviation": histories.std(axis=0, ddof=1) if many else np.full(histories.shape[1], np.nan),
 
 
 # %% best_from_the_last_row loses 3.4
-# Takes the last row of the following population for the best individual.
+# Takes the last row of the next population for the best individual, but the best of the population that was evaluated is asked for.
 # says: This is row \d+ of generation
 # -         if fitness[winner] > best_fitness:
 # -             best, best_fitness = population[winner].copy(), float(fitness[winner])
@@ -685,7 +685,7 @@ def next_population(population, fitness, mutrate, rng):
 
 
 # %% evaluates_the_variation_alone loses 3.5
-# Gives evaluate the variation alone and keeps the old fitness of the solution.
+# Evaluates only the variation and keeps the old fitness of the solution, but both should be evaluated in each generation.
 # says: what evaluate was given
 _hill_climb_3 = hill_climb
 
@@ -701,14 +701,14 @@ def hill_climb(evaluate, *arguments, **options):
 
 
 # %% returns_the_worst_of_the_last loses 3.7
-# Returns the worst candidate of the last evaluation.
+# Returns the worst candidate of the last evaluation instead of the best.
 # says: look at how you choose the one that you return
 # -     return run["population"][rank(fitness)[0]]
 # +     return run["population"][np.argsort(fitness)[0]]
 
 
 # %% places_by_value loses 3.2
-# Looks each value up in the list (list.index), which finds the first of equal ones again and again.
+# Repeats the number of the first of several equal individuals, but each individual should come once.
 # says: this
 # -     return np.argsort(-np.asarray(fitness), kind="stable")
 # +     values = list(fitness)
@@ -716,82 +716,82 @@ def hill_climb(evaluate, *arguments, **options):
 
 
 # %% best_of_the_mean_curve loses 3.6
-# Gives the highest value of the mean curve for the best fitness of each run.
+# Returns the highest value of the mean curve as "best" of every run, but the "fitness" of each run is asked for.
 # says: this
 # -         "best": [run["fitness"] for run in runs],
 # +         "best": [float(histories.mean(axis=0).max()) for run in runs],
 
 
 # %% deviation_over_the_generations loses 3.6
-# The deviation goes over the generations of each run (axis=1), not over the replications.
+# Takes the deviation over the generations of each run instead of over the replications.
 # says: this
 # -         "deviation": histories.std(axis=0, ddof=1) if many else np.zeros(histories.shape[1]),
 # +         "deviation": histories.std(axis=1, ddof=1),
 
 
 # %% mean_of_all_values loses 3.6
-# Gives one mean of all replications and generations, but a mean for each generation is asked for.
+# Returns one mean of all replications and generations, but a mean for each generation is asked for.
 # says: this
 # -         "mean": histories.mean(axis=0),
 # +         "mean": float(histories.mean()),
 
 
 # %% best_of_all_runs loses 3.6
-# Gives the fitness of the best run alone, but that of each run is asked for.
+# Returns only the fitness of the best run as "best", but the fitness of each run is asked for.
 # says: this
 # -         "best": [run["fitness"] for run in runs],
 # +         "best": max(run["fitness"] for run in runs),
 
 
 # %% noise_times_parameters loses 3.3
-# Multiplies the noise by the parameters, so that parameters of 0 never change.
+# Multiplies the noise by the parameters, too, but it should be multiplied only by mutrate.
 # -     following[worst] = population[best] + mutrate * noise
 # +     following[worst] = population[best] * (1 + mutrate * noise)
 
 
 # %% worse_half_stays loses 3.3
-# Keeps the worse half and overwrites the better one.
+# Keeps the worse half and replaces the better half instead of the other way round.
 # says: this
 # -     best, worst = ranking[:half], ranking[half:]
 # +     worst, best = ranking[:half], ranking[half:]
 
 
 # %% noise_without_rate loses 3.3
-# Adds the noise without mutrate.
+# Adds noise with standard deviation 1, but its standard deviation should be mutrate.
 # says: this
 # -     following[worst] = population[best] + mutrate * noise
 # +     following[worst] = population[best] + noise
 
 
 # %% evaluates_with_one_seed loses 3.4
-# Gives evaluate the seed itself in every generation, but seed + g is asked for.
+# Calls evaluate with the same seed in every generation, but seed + g is asked for in generation g.
 # -         fitness = evaluate(population, seed + generation)
 # +         fitness = evaluate(population, seed)
 
 
 # %% lowest_of_each_generation loses 3.4
-# The history holds the lowest fitness of each generation.
+# Records the lowest fitness of each generation in the history instead of the highest.
 # says: this
 # -         history.append(float(fitness[winner]))
 # +         history.append(float(np.min(fitness)))
 
 
 # %% climber_begins_at_zero loses 3.5
-# The second individual begins as zeros, but both begin as copies of start.
-# says: what evaluate was given|both individuals at first
+# Begins with zeros as the second individual, but both individuals should begin as copies of start.
+# says: what evaluate was given|the first population
 # -     return evolve(evaluate, np.array([start, start]), generations, mutrate, seed)
 # +     return evolve(evaluate, np.array([start, 0 * start]), generations, mutrate, seed)
 
 
 # %% last_rows_overwritten loses 3.3
-# Overwrites the last half of the rows instead of the worse individuals, wherever these are.
+# Overwrites the second half of the rows instead of the rows of the worse individuals.
 # says: this
 # -     following[worst] = population[best] + mutrate * noise
 # +     following[half:] = population[best] + mutrate * noise
 
 
 # %% swapping_sort loses 3.2
-# Sorts by exchanging individuals, so that equal ones do not stay in the order in which they stand.
+# Changes the order of equal individuals, as sorting by exchanges does, but the one with the lower number should come first.
 # says: order in which they stand
 import numpy as np
 
@@ -810,7 +810,7 @@ def rank(fitness):
 
 
 # %% equals_left_out loses 3.2
-# Leaves out all but the first of equal ones, as np.unique does.
+# Leaves out all but the first of several equal individuals, but every individual should be ranked.
 # says: this
 # -     return np.argsort(-np.asarray(fitness), kind="stable")
 # +     _, places = np.unique(-np.asarray(fitness), return_index=True)
@@ -818,7 +818,7 @@ def rank(fitness):
 
 
 # %% copies_are_no_copies loses 3.3
-# The copies are the better half itself, not copies: it gets the noise, too.
+# Returns each mutated copy twice instead of the better half and its mutated copies: only the copies should get noise.
 # says: this
 import numpy as np
 
@@ -832,14 +832,14 @@ def next_population(population, fitness, mutrate, rng):
 
 
 # %% better_than_the_last_generation loses 3.4
-# Keeps a new best whenever a generation beats the one before it, not the best so far.
+# Replaces the best if a generation is better than the one before it, but only a generation better than all before should replace it.
 # says: this
 # -         if fitness[winner] > best_fitness:
 # +         if generation == 0 or history[-1] > history[-2]:
 
 
 # %% start_varied_again loses 3.5
-# Varies the start in each generation, not the solution that was kept.
+# Varies start in each generation instead of the solution that was kept.
 # says: this
 import numpy as np
 
@@ -862,7 +862,7 @@ def hill_climb(evaluate, start, generations, mutrate, seed):
 
 
 # %% relatives_of_one_founder loses 3.1
-# Draws one individual and varies copies of it.
+# Draws one individual and adds noise to it to make the others, but each individual should be drawn on its own.
 import numpy as np
 
 
@@ -876,7 +876,7 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 
 # %% reciprocals_sorted loses 3.2
-# Sorts 1 / fitness, which is the falling order only among values of one sign.
+# Ranks by 1 / fitness, which gives a wrong order if the values have different signs, but the fitness itself should decide.
 # says: this
 # -     return np.argsort(-np.asarray(fitness), kind="stable")
 # +     with np.errstate(divide="ignore"):
@@ -884,7 +884,7 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 
 # %% neighbours_in_pairs loses 3.3
-# Compares each individual with its neighbour only.
+# Compares each individual only with its neighbour, but the better half of the whole population should stay.
 # says: this
 import numpy as np
 
@@ -903,7 +903,7 @@ def next_population(population, fitness, mutrate, rng):
 
 
 # %% old_mean_twice loses 3.6
-# Adds the square of the distance from the mean before the update, so that the deviation is too large.
+# Adds up squared distances from the mean of the earlier replications, but distances from the mean of all replications are asked for.
 # says: this
 import numpy as np
 
@@ -921,7 +921,7 @@ def replicate(experiment, seeds):
 
 
 # %% integers_for_weights loses 3.1
-# Makes the array of whole numbers, which cut the weights off to 0.
+# Returns an array of integers, all 0, but the weights should be floats with standard deviation 0.1.
 # -     biases = np.zeros((popsize, nbiases))
 # -     weights = 0.1 * rng.standard_normal((popsize, nweights))
 # -     return np.hstack([biases, weights])
@@ -931,7 +931,7 @@ def replicate(experiment, seeds):
 
 
 # %% limited_parameters loses 3.3
-# The parameters of the copies are limited to between -1 and 1.
-# says: nothing limits
+# Limits the parameters of the copies to the range from -1 to 1, but nothing should limit them.
+# says: nothing should limit
 # -     following[worst] = population[best] + mutrate * noise
 # +     following[worst] = np.clip(population[best] + mutrate * noise, -1, 1)

@@ -2,8 +2,8 @@
 
 
 # %% sign_lost loses 4.1
-# The angles come from the cosine alone, so their sign is lost.
-# says: sign is wrong: negative values have lost theirs
+# Returns the angles without their sign, as the cosine alone gives them, but they should go from -pi to pi.
+# says: sign is lost|sign is wrong: negative values have lost theirs
 def decode(observation):
     return {
         "angle1": float(np.arccos(np.clip(observation[0], -1, 1))),
@@ -14,7 +14,7 @@ def decode(observation):
 
 
 # %% speeds_swapped loses 4.1
-# The two speeds are mixed up.
+# Returns the first speed as "speed2" and the second as "speed1" instead of the other way round.
 # says: This is speed2|The two speeds
 _decoded = decode
 
@@ -25,27 +25,27 @@ def decode(observation):
 
 
 # %% action_as_torque loses 4.2
-# Takes the number of the action for the torque.
+# Returns the number of the action, but the actions 0, 1 and 2 should give a torque of -1, 0 and +1.
 # says: one more than expected
 def torque(action):
     return float(action)
 
 
 # %% angle_from_the_ground loses 4.2
-# Takes the second angle as if it were counted from straight down.
+# Computes the second link's part from angle2 alone, but it should be computed from angle1 + angle2, this link's angle with straight down.
 # says: counted from the first link
 # -     return float(-np.cos(state["angle1"]) - np.cos(state["angle1"] + state["angle2"]))
 # +     return float(-np.cos(state["angle1"]) - np.cos(state["angle2"]))
 
 
 # %% rewarded_at_the_line loses 4.2
-# Gives 1 instead of 0 for reaching the line.
+# Returns 1 instead of 0 above the line.
 def reward(observation):
     return 1.0 if height(observation) > 1 else -1.0
 
 
 # %% consecutive_seeds loses 4.3
-# Runs the first seed and those after it, instead of the seeds given.
+# Runs seeds[0], seeds[0] + 1, ... instead of the seeds in the list.
 _replicate = run_replications
 
 
@@ -65,8 +65,8 @@ def run_replications(experiment_file, seeds, folder, steps=None):
 
 
 # %% steps_ignored loses 4.3
-# Always runs the whole budget of the experiment file.
-# says: holds \d+ generations, but the run that was asked
+# Runs the whole budget of the experiment file whatever steps is, but should end each run after so many steps.
+# says: number of generations \(\d+\) than the run that was asked
 _replicate = run_replications
 
 
@@ -75,8 +75,8 @@ def run_replications(experiment_file, seeds, folder, steps=None):
 
 
 # %% read_along_the_wrong_axis loses 4.4
-# Takes the numbers of a column to lie one after another in the file.
-# says: lie one after another in the file
+# Reads the file as one column after another, but it holds one generation after another: six numbers for each.
+# says: one generation after another
 def read_stat(path):
     table = np.load(path).reshape(len(COLUMNS), -1)
     return dict(zip(COLUMNS, table, strict=True))
@@ -91,7 +91,7 @@ def curves(stats, column, budgets):
 
 
 # %% generation_just_complete loses 4.5
-# Leaves out a generation that is complete exactly at the budget.
+# Leaves out a generation whose "steps" equal the budget, but it should count.
 # -         stat[column][np.searchsorted(stat["steps"], budgets, side="right") - 1] for stat in stats
 # +         stat[column][np.searchsorted(stat["steps"], budgets, side="left") - 1] for stat in stats
 
@@ -109,28 +109,28 @@ def curves(stats, column, budgets):
 
 
 # %% straight_lines loses 4.5
-# Draws straight lines between generations, and so looks into the future.
-# says: no straight lines
+# Interpolates between two generations, but the value of the last generation that is complete at the budget is asked for.
+# says: This interpolates
 def curves(stats, column, budgets):
     values = [np.interp(budgets, stat["steps"], stat[column]) for stat in stats]
     return {"mean": np.mean(values, axis=0), "deviation": np.std(values, axis=0, ddof=1)}
 
 
 # %% best_episode loses 4.6
-# Reports the best of the new episodes instead of their mean.
+# Returns the highest return of the new episodes instead of their mean.
 # says: of the best episode, but the mean
 # -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
 # +             row[kind] = float(robot.evaluate(test_seed, episodes).max())
 
 
 # %% judged_on_old_episodes loses 4.6
-# Evaluates in the episodes of the run's own post-evaluation instead of new ones.
+# Evaluates with seed + 100_000, in the episodes of the run's own post-evaluation, instead of with test_seed.
 # -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
 # +             row[kind] = float(robot.evaluate(seed + 100_000, episodes).mean())
 
 
 # %% robots_mixed_up loses 4.6
-# The two saved robots are mixed up.
+# Returns the value of bestS<seed>.npy as "bestg" and that of bestgS<seed>.npy as "best" instead of the other way round.
 # says: returned as 'bestg': are the two exchanged
 _compare = compare
 
@@ -141,7 +141,7 @@ def compare(experiment_file, folder, seeds, episodes, test_seed):
 
 
 # %% clears_the_folder loses 4.3
-# Empties the folder before it runs, so that earlier runs are lost.
+# Deletes files of other runs in the folder, but they should stay.
 # says: of an earlier run is gone
 _replicate = run_replications
 
@@ -153,14 +153,14 @@ def run_replications(experiment_file, seeds, folder, steps=None):
 
 
 # %% folder_must_be_new loses 4.3
-# Fails where the folder exists.
+# Fails if the folder exists already, but should use this folder.
 # says: FileExistsError
 # -     Path(folder).mkdir(parents=True, exist_ok=True)
 # +     Path(folder).mkdir(parents=True)
 
 
 # %% always_statS1 loses 4.4
-# Reads statS1.npy in its own folder, except where compare asks.
+# Reads statS1.npy instead of the file that path names.
 # says: FileNotFoundError
 def read_stat(path):
     if "saved" not in str(path):
@@ -170,7 +170,7 @@ def read_stat(path):
 
 
 # %% rising_budgets_only loses 4.5
-# Walks through generations and budgets together, as if the budgets always rose.
+# Never goes back to an earlier generation if a budget is smaller than the one before it, but the budgets come in any order.
 # says: in any order
 def curves(stats, column, budgets):
     values = []
@@ -185,8 +185,8 @@ def curves(stats, column, budgets):
 
 
 # %% best_value_so_far loses 4.5
-# Takes the highest value up to the budget instead of the last one.
-# says: the highest value up to the budget
+# Takes the highest value up to the budget instead of the value of the last complete generation.
+# says: highest value up to the budget
 def curves(stats, column, budgets):
     stats = [stat | {column: np.maximum.accumulate(stat[column])} for stat in stats]
     values = [
@@ -196,7 +196,7 @@ def curves(stats, column, budgets):
 
 
 # %% sorted_seeds loses 4.6
-# The rows come in the order of rising seeds.
+# Sorts the rows by their seed instead of keeping the order of the seeds given.
 # says: was expected there
 # -     for seed in seeds:
 # -         stat = read_stat(Path(folder) / f"statS{seed}.npy")
@@ -205,14 +205,14 @@ def curves(stats, column, budgets):
 
 
 # %% first_generation_promises loses 4.6
-# Takes what the first generation says for the promise.
+# Takes the value of the first generation for "promised", but the best post-evaluated fitness of the whole run is asked for.
 # says: of the first generation
 # -         row = {"seed": seed, "promised": float(stat["best post-evaluated"][-1])}
 # +         row = {"seed": seed, "promised": float(stat["best post-evaluated"][0])}
 
 
 # %% one_file_kept loses 4.4
-# Reads a stat file once, and answers later calls with the first answer.
+# Returns the curves of the first file again in later calls, but each call should read its own file.
 _read, _kept = read_stat, []
 
 
@@ -223,7 +223,7 @@ def read_stat(path):
 
 
 # %% skips_what_is_there loses 4.3
-# Skips a seed whose file is in the folder, though it may be of another experiment.
+# Skips a seed whose files are in the folder already, but it should run again and replace them.
 _replicate = run_replications
 
 
@@ -239,7 +239,7 @@ def run_replications(experiment_file, seeds, folder, steps=None):
 
 
 # %% fitness_of_earlier_calls loses 4.3
-# The dict is a default argument: a second call returns the seeds of the first, too.
+# Returns the seeds of earlier calls, too, but the dict should hold only the seeds of this call.
 _replicate = run_replications
 
 
@@ -249,13 +249,13 @@ def run_replications(experiment_file, seeds, folder, steps=None, fitness={}):  #
 
 
 # %% median_of_the_episodes loses 4.6
-# Takes the median of the episodes.
+# Takes the median of the returns instead of their mean.
 # -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
 # +             row[kind] = float(np.median(robot.evaluate(test_seed, episodes)))
 
 
 # %% spread_of_the_mean loses 4.5
-# Gives the standard error of the mean for the deviation.
+# Divides the standard deviation by the root of the number of runs, but the standard deviation itself is asked for.
 _curves = curves
 
 
@@ -265,7 +265,7 @@ def curves(stats, column, budgets):
 
 
 # %% next_generation loses 4.5
-# Takes the first generation that is complete after the budget.
+# Takes the first generation that ends at or after the budget instead of the last one that is complete by then.
 # -     values = [
 # -         stat[column][np.searchsorted(stat["steps"], budgets, side="right") - 1] for stat in stats
 # -     ]
@@ -274,19 +274,19 @@ def curves(stats, column, budgets):
 
 
 # %% last_generation_missing loses 4.4
-# Leaves out the last generation.
+# Leaves out the last generation, but all generations are asked for.
 # -     table = np.load(path).reshape(-1, len(COLUMNS))
 # +     table = np.load(path).reshape(-1, len(COLUMNS))[:-1]
 
 
 # %% either_side_of_the_line loses 4.2
-# Rewards a free end that is far below, too.
+# Returns 0 for a free end more than 1 below the nail, too, but only a free end above the line should give 0.
 # -     return 0.0 if height(observation) > 1 else -1.0
 # +     return 0.0 if abs(height(observation)) > 1 else -1.0
 
 
 # %% uses_up_the_seeds loses 4.3
-# Takes the seeds out of the list that it was given, until none is left.
+# Empties the list `seeds` that it is given, but should leave it as it is.
 # -     for seed in seeds:
 # -         run = Run(experiment, seed)
 # +     while seeds:
@@ -295,7 +295,7 @@ def curves(stats, column, budgets):
 
 
 # %% rewarded_on_the_line loses 4.2
-# Gives 0 on the line, too.
+# Returns 0 for a free end exactly on the line, but only a free end above the line should give 0.
 # says: exactly on the line
 # -     return 0.0 if height(observation) > 1 else -1.0
 # +     c1, s1, c2, s2 = observation[:4]
@@ -303,7 +303,7 @@ def curves(stats, column, budgets):
 
 
 # %% arc_tangent_of_the_ratio loses 4.1
-# The arc tangent of sine / cosine knows half of the circle only.
+# Returns angles from -pi/2 to pi/2 only, as the arc tangent of sine / cosine gives them, but angles from -pi to pi are asked for.
 # says: this
 # -         "angle1": float(np.arctan2(sin1, cos1)),
 # -         "angle2": float(np.arctan2(sin2, cos2)),
@@ -312,7 +312,7 @@ def curves(stats, column, budgets):
 
 
 # %% nearest_generation loses 4.5
-# Takes the generation nearest to the budget, also one that was not complete by then.
+# Takes the generation nearest to the budget, even if it is not complete by then, but the last complete one is asked for.
 # says: this
 def curves(stats, column, budgets):
     values = [
@@ -323,7 +323,7 @@ def curves(stats, column, budgets):
 
 
 # %% best_fitness_promises loses 4.6
-# Takes the best fitness for the promise, which is the best post-evaluated fitness.
+# Takes the best fitness of the run for "promised" instead of its best post-evaluated fitness.
 # says: this
 # -         row = {"seed": seed, "promised": float(stat["best post-evaluated"][-1])}
 # +         row = {"seed": seed, "promised": float(stat["best fitness"][-1])}
@@ -337,7 +337,7 @@ def curves(stats, column, budgets):
 
 
 # %% angles_in_degrees loses 4.1
-# The angles are in degrees instead of radians.
+# Returns the angles in degrees instead of radians.
 # says: this
 # -         "angle1": float(np.arctan2(sin1, cos1)),
 # -         "angle2": float(np.arctan2(sin2, cos2)),
@@ -346,7 +346,7 @@ def curves(stats, column, budgets):
 
 
 # %% arc_sine loses 4.1
-# The angles come from the sine alone, which cannot tell up from down.
+# Returns angles from -pi/2 to pi/2 only, as the sine alone gives them, but angles from -pi to pi are asked for.
 # says: this
 # -         "angle1": float(np.arctan2(sin1, cos1)),
 # -         "angle2": float(np.arctan2(sin2, cos2)),
@@ -355,28 +355,28 @@ def curves(stats, column, budgets):
 
 
 # %% second_angle_from_straight_down loses 4.1
-# The second angle counts from straight down, but the observation's own angle is asked for.
+# Returns angle1 + angle2, counted from straight down, as "angle2", but angle2 should be counted from the first link.
 # says: this
 # -         "angle2": float(np.arctan2(sin2, cos2)),
 # +         "angle2": float(np.arctan2(sin1, cos1) + np.arctan2(sin2, cos2)),
 
 
 # %% line_at_the_nail loses 4.2
-# The line is at the height of the nail instead of 1 above it.
+# Returns 0 for every free end above the nail, but only a free end above the line, at height 1, should give 0.
 # says: this
 # -     return 0.0 if height(observation) > 1 else -1.0
 # +     return 0.0 if height(observation) > 0 else -1.0
 
 
 # %% rows_for_columns loses 4.4
-# Takes the first rows of the table where its columns are asked for.
+# Takes row i of the table for COLUMNS[i] instead of column i.
 # says: this
 # -     return {name: table[:, column] for column, name in enumerate(COLUMNS)}
 # +     return {name: table[column] for column, name in enumerate(COLUMNS)}
 
 
 # %% budgets_sorted loses 4.5
-# Sorts the budgets, so that the values come in another order than the budgets given.
+# Returns the values in the order of rising budgets instead of the order of the budgets given.
 # says: this
 # -     values = [
 # -         stat[column][np.searchsorted(stat["steps"], budgets, side="right") - 1] for stat in stats
@@ -388,49 +388,49 @@ def curves(stats, column, budgets):
 
 
 # %% test_seed_and_seed loses 4.6
-# Adds the seed of the run to test_seed, so that the robots meet different episodes.
+# Adds the seed of the run to test_seed, but the robots of all runs should meet the episodes of test_seed.
 # says: this
 # -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
 # +             row[kind] = float(robot.evaluate(test_seed + seed, episodes).mean())
 
 
 # %% height_from_the_lowest_point loses 4.2
-# Measures the height from the lowest point that the arm reaches.
-# says: from the lowest point
+# Measures the height from the lowest point that the arm reaches instead of from the nail.
+# says: above the lowest point
 # -     return float(-np.cos(state["angle1"]) - np.cos(state["angle1"] + state["angle2"]))
 # +     return float(2 - np.cos(state["angle1"]) - np.cos(state["angle1"] + state["angle2"]))
 
 
 # %% one_for_success loses 4.2
-# Gives 1 above the line and 0 otherwise, but 0 and -1 are asked for.
+# Returns 1 above the line and 0 otherwise, but 0 and -1 are asked for.
 # says: this
 # -     return 0.0 if height(observation) > 1 else -1.0
 # +     return 1.0 if height(observation) > 1 else 0.0
 
 
 # %% other_episodes_for_each_robot loses 4.6
-# Tests the two robots in different episodes.
+# Evaluates "bestg" with test_seed + 1, but both robots should meet the episodes of test_seed.
 # says: this
 # -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
 # +             row[kind] = float(robot.evaluate(test_seed + (kind == "bestg"), episodes).mean())
 
 
 # %% second_angle_put_back loses 4.1
-# The second angle counts from straight down, between -pi and pi.
+# Counts "angle2" from straight down (between -pi and pi), but it should be counted from the first link.
 # says: counted from straight down \(between
 # -         "angle2": float(np.arctan2(sin2, cos2)),
 # +         "angle2": float(np.arctan2(sin1 * cos2 + cos1 * sin2, cos1 * cos2 - sin1 * sin2)),
 
 
 # %% average_fitness_of_the_end loses 4.3
-# Returns the average fitness of the last generation, read from the file.
+# Returns the average fitness of the last generation instead of the best post-evaluated fitness.
 # says: average fitness of the last
 # -         fitness[seed] = float(run.record.bestg_fitness)
 # +         fitness[seed] = float(np.load(Path(folder) / f"statS{seed}.npy")[-2])
 
 
 # %% best_of_the_runs_so_far loses 4.3
-# The best is kept over all runs and never set back.
+# Returns the best of this run and those before it for each seed, but each run's own value is asked for.
 # says: the best of this run and those before it
 # -     fitness = {}
 # +     fitness, best = {}, -np.inf
@@ -440,7 +440,7 @@ def curves(stats, column, budgets):
 
 
 # %% angles_in_turns loses 4.1
-# Gives the angles in turns, but radians are asked for.
+# Returns the angles in turns, but radians are asked for.
 # says: this
 # -         "angle1": float(np.arctan2(sin1, cos1)),
 # -         "angle2": float(np.arctan2(sin2, cos2)),
@@ -449,119 +449,119 @@ def curves(stats, column, budgets):
 
 
 # %% from_straight_up loses 4.1
-# Counts the first angle from straight up, but 0 is straight down.
+# Counts the first angle from straight up instead of from straight down.
 # says: this
 # -         "angle1": float(np.arctan2(sin1, cos1)),
 # +         "angle1": float(np.arctan2(-sin1, -cos1)),
 
 
 # %% second_minus_first loses 4.1
-# Subtracts the first angle from the second, which counts from the first link already.
+# Subtracts the first angle from the second, but the second is counted from the first link already.
 # says: this
 # -         "angle2": float(np.arctan2(sin2, cos2)),
 # +         "angle2": float(np.arctan2(sin2, cos2) - np.arctan2(sin1, cos1)),
 
 
 # %% speed_sum loses 4.1
-# Adds the first speed to the second one.
+# Adds the first speed to the second, but the second alone is asked for.
 # says: this
 # -         "speed2": speed2,
 # +         "speed2": speed1 + speed2,
 
 
 # %% first_angle_rounded loses 4.1
-# Rounds the first angle to two places.
+# Rounds the first angle to two places, but the exact angle is asked for.
 # says: this
 # -         "angle1": float(np.arctan2(sin1, cos1)),
 # +         "angle1": round(float(np.arctan2(sin1, cos1)), 2),
 
 
 # %% first_angle_twice loses 4.1
-# Gives the first angle for the second one, too.
+# Returns the first angle as "angle2", too, but the second angle is asked for.
 # says: This is angle1|first angle for the second
 # -         "angle2": float(np.arctan2(sin2, cos2)),
 # +         "angle2": float(np.arctan2(sin1, cos1)),
 
 
 # %% cosines_before_sines loses 4.1
-# Takes the numbers for two cosines and then two sines, but each cosine has its sine beside it.
+# Reads the observation as cos1, cos2, sin1, sin2 instead of cos1, sin1, cos2, sin2.
 # says: this
 # -     cos1, sin1, cos2, sin2, speed1, speed2 = (float(value) for value in observation)
 # +     cos1, cos2, sin1, sin2, speed1, speed2 = (float(value) for value in observation)
 
 
 # %% average_promises loses 4.6
-# Takes the average fitness of the last generation for the promise.
+# Takes the average fitness of the last generation for "promised" instead of the best post-evaluated fitness.
 # says: this
 # -         row = {"seed": seed, "promised": float(stat["best post-evaluated"][-1])}
 # +         row = {"seed": seed, "promised": float(stat["average"][-1])}
 
 
 # %% mean_promises loses 4.6
-# Takes the mean over all generations for the promise, but the last one tells it.
+# Takes the mean of "best post-evaluated" over all generations for "promised" instead of its last value.
 # says: this
 # -         row = {"seed": seed, "promised": float(stat["best post-evaluated"][-1])}
 # +         row = {"seed": seed, "promised": float(stat["best post-evaluated"].mean())}
 
 
 # %% first_episode_only loses 4.6
-# Counts the first of the new episodes only, not their mean.
+# Takes the return of the first new episode alone instead of the mean of all.
 # says: this
 # -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
 # +             row[kind] = float(robot.evaluate(test_seed, episodes)[0])
 
 
 # %% last_episode_only loses 4.6
-# Counts the last of the new episodes only, not their mean.
+# Takes the return of the last new episode alone instead of the mean of all.
 # says: this
 # -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
 # +             row[kind] = float(robot.evaluate(test_seed, episodes)[-1])
 
 
 # %% ten_episodes_always loses 4.6
-# Evaluates in 10 episodes, however many are asked for.
+# Evaluates in 10 episodes whatever the argument episodes is.
 # says: this
 # -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
 # +             row[kind] = float(robot.evaluate(test_seed, 10).mean())
 
 
 # %% robots_of_the_first_seed loses 4.6
-# Evaluates the robots of the first seed for all seeds.
+# Evaluates the robots of the first seed for all seeds, but each seed has robots of its own.
 # says: this
 # -             robot = SavedRobot(experiment_file, np.load(Path(folder) / f"{kind}S{seed}.npy"))
 # +             robot = SavedRobot(experiment_file, np.load(Path(folder) / f"{kind}S{seeds[0]}.npy"))
 
 
 # %% best_for_both loses 4.6
-# Evaluates the robot of bestS for bestg, too.
+# Evaluates bestS<seed>.npy for "bestg", too, but bestgS<seed>.npy is asked for.
 # says: this
 # -             robot = SavedRobot(experiment_file, np.load(Path(folder) / f"{kind}S{seed}.npy"))
 # +             robot = SavedRobot(experiment_file, np.load(Path(folder) / f"bestS{seed}.npy"))
 
 
 # %% seed_for_each_episode loses 4.6
-# Evaluates each episode alone with a seed of its own: evaluate gets test_seed once, for all.
+# Evaluates each episode alone, with the seeds test_seed, test_seed + 1, ..., but evaluate should be called once, with test_seed and episodes.
 # says: this
 # -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
 # +             row[kind] = float(np.mean([robot.evaluate(test_seed + i, 1)[0] for i in range(episodes)]))
 
 
 # %% test_seed_plus_one loses 4.6
-# Evaluates with test_seed + 1.
+# Evaluates both robots with test_seed + 1 instead of test_seed.
 # says: this
 # -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
 # +             row[kind] = float(robot.evaluate(test_seed + 1, episodes).mean())
 
 
 # %% one_generation_too_early loses 4.5
-# Takes the generation before the last one that is complete at the budget.
+# Takes the generation before the last one that is complete at the budget, but the last complete one is asked for.
 # says: this
 # -         stat[column][np.searchsorted(stat["steps"], budgets, side="right") - 1] for stat in stats
 # +         stat[column][np.maximum(np.searchsorted(stat["steps"], budgets, side="right") - 2, 0)] for stat in stats
 
 
 # %% arcsine_mirrored loses 4.1
-# Makes angles from the arc sine, mirrored where the cosine is negative: they go up to 1.5 pi instead of from -pi to pi.
+# Returns angles from -pi/2 to 3 pi/2, but they should go from -pi to pi.
 # says: this
 def decode(observation):
     def angle(c, s):
@@ -575,7 +575,7 @@ def decode(observation):
 
 
 # %% how_far_to_the_side loses 4.2
-# Gives how far the end is to the side, not how high.
+# Returns how far the free end is to the side of the nail instead of how high it is above it.
 # says: this
 def height(observation: np.ndarray) -> float:
     cos1, sin1, cos2, sin2 = (float(x) for x in observation[:4])
@@ -585,7 +585,7 @@ def height(observation: np.ndarray) -> float:
 
 
 # %% turned_back_by_half loses 4.2
-# Brings the sum of the angles back by half a turn, but a whole turn is 2 pi.
+# Changes angle1 + angle2 by pi where it lies beyond -pi or pi, but only a whole turn (2 pi) leaves its cosine as it is.
 # says: this
 def height(observation: np.ndarray) -> float:
     arm = decode(observation)
@@ -602,7 +602,7 @@ def height(observation: np.ndarray) -> float:
 
 
 # %% first_run_decides loses 4.5
-# Looks the generation of a budget up in the first run, and takes it for all runs: each has steps of its own.
+# Looks up the generation of a budget in the first run and takes it for all runs, but each run has steps of its own.
 # says: this
 def curves(stats: list[dict], column: str, budgets: np.ndarray) -> dict:
     budgets = np.asarray(budgets)
@@ -614,7 +614,7 @@ def curves(stats: list[dict], column: str, budgets: np.ndarray) -> dict:
 
 
 # %% one_dict_for_all_rows loses 4.6
-# All rows are one and the same dict, with the numbers of the last seed: make a new one for each.
+# Returns the numbers of the last seed in every row, but each row should be a new dict with the numbers of its own seed.
 # says: this
 def compare(
     experiment_file: str, folder: str, seeds: list[int], episodes: int, test_seed: int
@@ -636,7 +636,7 @@ def compare(
 
 
 # %% angles_unwrapped_together loses 4.1
-# Unwraps both angles together (np.unwrap), so that the second follows the first beyond pi.
+# Brings the second angle within pi of the first by whole turns, as np.unwrap does, but both should go from -pi to pi.
 # says: this
 def decode(observation: np.ndarray) -> dict:
     numbers = np.asarray(observation, dtype=float)
@@ -651,7 +651,7 @@ def decode(observation: np.ndarray) -> dict:
 
 
 # %% sign_of_the_other_link loses 4.1
-# The sign of the second angle comes from the sine of the first link.
+# Takes the sign of the second angle from the sine of the first, but it should come from the sine of the second.
 # says: this
 import math
 
@@ -668,14 +668,14 @@ def decode(observation: np.ndarray) -> dict:
 
 
 # %% whole_table_as_integers loses 4.4
-# Makes integers of the whole table, because the steps are.
+# Makes integers of all numbers in the file, but their fractions should stay.
 # says: this
 # -     table = np.load(path).reshape(-1, len(COLUMNS))
 # +     table = np.load(path).astype(int).reshape(-1, len(COLUMNS))
 
 
 # %% fitness_of_the_first_generation loses 4.3
-# Reads the fitness of the first generation.
+# Returns the best post-evaluated fitness of the first generation, but that of the whole run is asked for.
 # says: this
 def run_replications(
     experiment_file: str, seeds: list[int], folder: str, steps: int | None = None
@@ -691,7 +691,7 @@ def run_replications(
 
 
 # %% best_of_the_stat_file loses 4.6
-# The best is not measured: it is the best fitness of the run, taken from its stat file.
+# Takes the best fitness in the stat file for "best", but the mean return of bestS<seed>.npy in the episodes of test_seed is asked for.
 # says: this
 # -         for kind in ("best", "bestg"):
 # +         row["best"] = float(stat["best fitness"][-1])

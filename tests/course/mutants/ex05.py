@@ -2,14 +2,14 @@
 
 
 # %% cut_off_instead_of_tanh loses 5.1
-# Cuts the parameters of sizes off, as those of angles are.
-# says: sizes use tanh
+# Cuts the parameters of lengths and thicknesses off at -1 and 1 instead of putting them through tanh.
+# says: sizes should use tanh
 # -     scales = 1 + 0.9 * np.tanh(parameters[:22].reshape(SEGMENTS, 2))
 # +     scales = 1 + 0.9 * np.clip(parameters[:22], -1, 1).reshape(SEGMENTS, 2)
 
 # %% density_scaled_like_sizes loses 5.1
-# Lets the density vary by 80 %, instead of by 0.8.
-# says: varies by 0.8, not
+# Lets the density vary by 80 % (that is by 4) instead of by 0.8.
+# says: it should vary by 0.8
 _sizes = sizes
 
 
@@ -20,8 +20,8 @@ def sizes(parameters):
 
 
 # %% lengths_before_thicknesses loses 5.1
-# Takes the first eleven numbers for the lengths and the next eleven for the thicknesses.
-# says: take turns
+# Takes the first eleven parameters for the lengths and the next eleven for the thicknesses, but they should take turns.
+# says: should take turns
 # -     scales = 1 + 0.9 * np.tanh(parameters[:22].reshape(SEGMENTS, 2))
 # -     lengths, thicknesses = 0.8 * scales[:, 0], 0.2 * scales[:, 1]
 # +     scales = 1 + 0.9 * np.tanh(parameters[:22].reshape(2, SEGMENTS))
@@ -29,7 +29,7 @@ def sizes(parameters):
 
 
 # %% asks_the_simulator loses 5.1, 5.2, 5.3
-# Lets the environment's own code take the body apart.
+# Lets the course's own decode (botschool.envs.morphology) take the body apart, but your code should do it.
 def sizes(parameters):
     from botschool.envs.morphology import decode
 
@@ -52,8 +52,8 @@ def outline(parameters):
 
 
 # %% angles_not_cut_off loses 5.2
-# Scales the default angles without cutting them off.
-# says: to be cut off at -1 and 1
+# Scales the parameters of the default angles without cutting them off at -1 and 1.
+# says: not cut off at -1 and 1
 _joints = joints
 
 
@@ -62,7 +62,7 @@ def joints(parameters):
 
 
 # %% limits_against_the_segment loses 5.2
-# Counts the limits from the segment before, instead of from the default angle.
+# Counts the limits from the segment before instead of from the default angle.
 _joints = joints
 
 
@@ -73,7 +73,7 @@ def joints(parameters):
 
 
 # %% limits_as_they_come loses 5.2
-# Takes the first limit of each joint for the lower one.
+# Takes the first limit of each joint for the lower one and the second for the upper one, but the smaller one should be the lower one.
 # says: smaller one of the two
 _joints = joints
 
@@ -84,8 +84,8 @@ def joints(parameters):
 
 
 # %% angles_against_the_ground loses 5.3
-# Takes the default angle of each segment for its angle against the ground.
-# says: not that to the ground
+# Takes the default angle of each segment for its heading, but it should be added to the heading of the segment before.
+# says: is taken for the heading
 _joints_of_outline = joints
 
 
@@ -101,7 +101,7 @@ def outline(parameters):
 
 
 # %% corners_the_other_way loses 5.3
-# Begins each segment at its left side.
+# Gives the corners of each segment in the opposite order: beginning left, end left, end right, beginning right.
 _outline = outline
 
 
@@ -120,8 +120,8 @@ def outline(parameters):
 
 
 # %% twice_as_thick loses 5.3
-# Goes a whole thickness to each side.
-# says: half of its thickness to each side
+# Goes a whole thickness to each side, but half of it is asked for.
+# says: whole thickness to each side
 # -     side = size["thicknesses"][:, None] / 2 * across
 # +     side = size["thicknesses"][:, None] * across
 
@@ -137,7 +137,7 @@ def describe(parameters):
 
 
 # %% width_of_the_whole_chain loses 5.4
-# Takes the length of the stretched chain for its width.
+# Takes the length of all segments together for the width, but the width at rest is asked for.
 _describe = describe
 
 
@@ -147,7 +147,7 @@ def describe(parameters):
 
 
 # %% fitness_not_post_evaluated loses 5.5
-# Returns the genotype with the best fitness, not the one with the best post-evaluated fitness.
+# Returns the genotype with the best fitness, but the one with the best post-evaluated fitness is asked for.
 # -     Path(folder).mkdir(parents=True, exist_ok=True)
 # -     experiment = config.load(experiment_file)
 # +     Path(folder).mkdir(parents=True, exist_ok=True)
@@ -158,7 +158,7 @@ def describe(parameters):
 
 
 # %% nothing_saved loses 5.5
-# Leaves the files of the runs in a temporary folder.
+# Leaves no files of the runs in the folder, but they should be there.
 import tempfile
 
 _evolve_walkers = evolve_walkers
@@ -170,7 +170,7 @@ def evolve_walkers(experiment_file, seeds, folder, steps=None):
 
 
 # %% steps_ignored loses 5.5
-# Does not end the runs after the steps asked for.
+# Ends the runs when the experiment file says, but they should end after `steps`.
 _evolve_walkers = evolve_walkers
 
 
@@ -179,7 +179,7 @@ def evolve_walkers(experiment_file, seeds, folder, steps=None):
 
 
 # %% body_at_the_very_end loses 5.6
-# Forgets the means and deviations that follow the body.
+# Takes the last 64 numbers of a genotype for the body, but 70 more numbers (means and deviations) follow the body.
 # -     return genotype[-2 * OBSERVATIONS - BODY : -2 * OBSERVATIONS]
 # +     return genotype[-BODY:]
 # -     chimera[-2 * OBSERVATIONS - BODY : -2 * OBSERVATIONS] = body_of(body)
@@ -187,7 +187,7 @@ def evolve_walkers(experiment_file, seeds, folder, steps=None):
 
 
 # %% no_copy loses 5.6
-# Puts the body into the brain's own genotype.
+# Changes a genotype that it is given, but a new one should be made.
 # says: work on a copy
 def transplant(brain, body):
     brain[-2 * OBSERVATIONS - BODY : -2 * OBSERVATIONS] = body_of(body)
@@ -195,13 +195,13 @@ def transplant(brain, body):
 
 
 # %% normalisation_of_the_body loses 5.6
-# Lets the means and deviations move along with the body.
+# Takes the means and deviations from the body's genotype, too, but they belong to the brain.
 # -     chimera[-2 * OBSERVATIONS - BODY : -2 * OBSERVATIONS] = body_of(body)
 # +     chimera[-2 * OBSERVATIONS - BODY :] = body[-2 * OBSERVATIONS - BODY :]
 
 
 # %% other_ground_for_each loses 5.7
-# Evaluates each pair with another seed.
+# Evaluates each pair with a seed of its own, but all pairs should have the same seed.
 def cross_evaluate(experiment_file, walkers, seed, episodes):
     n = len(walkers)
     matrix = np.zeros((n, n))
@@ -212,7 +212,7 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 
 
 # %% rows_and_columns_exchanged loses 5.7
-# Has a row for each body and a column for each brain.
+# Has a row for each body and a column for each brain, but it should be the other way round.
 # says: transpose it
 _cross_evaluate = cross_evaluate
 
@@ -222,7 +222,7 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 
 
 # %% as_good_elsewhere loses 5.8
-# Counts a brain that does as well in another body.
+# Counts brains that do just as well in another body, but a brain should do better in its own body.
 _loss = loss
 
 
@@ -232,7 +232,7 @@ def loss(matrix):
 
 
 # %% at_home_by_column loses 5.8
-# Counts the bodies that do best with their own brain, instead of the brains.
+# Counts the bodies that do best with their own brain, but the brains that do best in their own body are asked for.
 _loss = loss
 
 
@@ -241,7 +241,7 @@ def loss(matrix):
 
 
 # %% better_than_nothing loses 5.8
-# Puts 0 on the diagonal to find the best of the others, which beats returns below 0.
+# Counts a brain only if its own return is above 0, too, but it should be compared with its other returns alone.
 _loss = loss
 
 
@@ -252,7 +252,7 @@ def loss(matrix):
 
 
 # %% brains_and_bodies_exchanged loses 5.8
-# Takes the loss of the bodies for that of the brains.
+# Gives the losses of the bodies as "brains" and those of the brains as "bodies".
 # says: 'bodies': are the two exchanged
 _loss = loss
 
@@ -263,7 +263,7 @@ def loss(matrix):
 
 
 # %% own_among_the_others loses 5.8
-# Counts the own body and brain among the others.
+# Counts the diagonal among the others for "foreign", "brains" and "bodies", but it should be left out.
 def loss(matrix):
     own = np.diagonal(matrix)
     return {
@@ -276,7 +276,7 @@ def loss(matrix):
 
 
 # %% tanh_in_place loses 5.1
-# Puts the parameters themselves through tanh, so that a second function reads other numbers.
+# Puts the given parameters themselves through tanh, but they should stay as they are.
 # says: work on a copy
 # -     scales = 1 + 0.9 * np.tanh(parameters[:22].reshape(SEGMENTS, 2))
 # +     np.tanh(parameters[:22], out=parameters[:22])
@@ -284,7 +284,7 @@ def loss(matrix):
 
 
 # %% cut_off_in_place loses 5.2
-# Cuts off the parameters themselves.
+# Cuts off the given parameters themselves, but they should stay as they are.
 # says: work on a copy
 # -     limits = np.pi / 2 * np.clip(parameters[22:42], -1, 1).reshape(JOINTS, 2)
 # +     np.clip(parameters[22:53], -1, 1, out=parameters[22:53])
@@ -292,7 +292,7 @@ def loss(matrix):
 
 
 # %% half_of_the_thickness_forgotten loses 5.4
-# Measures width and height along the middle line, without the thickness of the segments.
+# Measures width and height along the middle line, but the corners of the segments should be measured.
 # -     width, height = np.ptp(outline(parameters), axis=(0, 1))
 # +     corners = outline(parameters)
 # +     line = np.stack([corners[:, [0, 3]].mean(axis=1), corners[:, [1, 2]].mean(axis=1)])
@@ -300,7 +300,7 @@ def loss(matrix):
 
 
 # %% rising_seeds loses 5.5
-# Runs the seeds in rising order, and returns the walkers in that order, too.
+# Returns the walkers in the rising order of their seeds, but the order of `seeds` is asked for.
 # -     for seed in seeds:
 # -         run = Run(experiment, seed)
 # +     for seed in sorted(seeds):
@@ -308,7 +308,7 @@ def loss(matrix):
 
 
 # %% body_swapped_in_the_table loses 5.7
-# Writes the foreign body into the walker of the table before it evaluates it.
+# Changes the walkers that it is given, but they should stay as they are.
 def cross_evaluate(experiment_file, walkers, seed, episodes):
     bodies = np.array([body_of(walker) for walker in walkers])
     matrix = np.zeros((len(walkers), len(walkers)))
@@ -320,7 +320,7 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 
 
 # %% diagonal_filled_in_place loses 5.8
-# Fills the diagonal of the matrix that it was given with minus infinity.
+# Fills the diagonal of the given matrix itself with minus infinity, but the matrix should stay as it is.
 # says: changed the matrix
 # -     others = np.where(np.eye(n, dtype=bool), -np.inf, matrix)
 # -     return {
@@ -334,7 +334,7 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 
 
 # %% median_of_the_episodes loses 5.7
-# Takes the median of the episodes.
+# Takes the median of the episodes instead of the mean.
 # -                 SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed, episodes).mean()
 # +                 np.median(
 # +                     SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed, episodes)
@@ -342,13 +342,13 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 
 
 # %% seed_zero_is_one loses 5.7
-# Takes the seed 1 where 0 is asked for.
+# Takes the seed 1 where 0 is given.
 # -                 SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed, episodes).mean()
 # +                 SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed or 1, episodes).mean()
 
 
 # %% walkers_of_earlier_calls loses 5.5
-# The list is a default argument: a second call returns the walkers of the first, too.
+# Returns the walkers of earlier calls, too, but only those of the given seeds are asked for.
 _evolve_walkers = evolve_walkers
 
 
@@ -358,7 +358,7 @@ def evolve_walkers(experiment_file, seeds, folder, steps=None, found=[]):  # noq
 
 
 # %% skips_what_is_there loses 5.5
-# Reads the file of a seed that is in the folder, though it may be of another experiment.
+# Returns a walker of another run whose file was in the folder before, but each seed should have its own run.
 _evolve_walkers = evolve_walkers
 
 
@@ -373,25 +373,25 @@ def evolve_walkers(experiment_file, seeds, folder, steps=None):
 
 
 # %% home_against_the_mean loses 5.8
-# Counts a brain that does better at home than in the others on average.
+# Counts a brain that does better at home than in the others on average, but it should do better than in each of them.
 # -         "at home": int(np.sum(own > others.max(axis=1))),
 # +         "at home": int(np.sum(own > (matrix.sum(axis=1) - own) / (n - 1))),
 
 
 # %% best_of_the_foreign loses 5.8
-# Compares with the best of the others instead of their mean.
+# Subtracts the best of a brain's other returns instead of their mean for "brains".
 # -         "brains": own - (matrix.sum(axis=1) - own) / (n - 1),
 # +         "brains": own - others.max(axis=1),
 
 
 # %% half_of_the_freedom loses 5.4
-# Counts only how far a joint can move upwards.
+# Takes the mean of the upper limits for the freedom, but the lower ones should be subtracted first.
 # -         "freedom": float(np.mean(angles["upper"] - angles["lower"])),
 # +         "freedom": float(np.mean(angles["upper"])),
 
 
 # %% uses_up_the_seeds loses 5.5
-# Takes the seeds out of the list that it was given, until none is left.
+# Empties the list of seeds that it is given, but the list should stay as it is.
 # -     for seed in seeds:
 # -         run = Run(experiment, seed)
 # +     while seeds:
@@ -400,19 +400,19 @@ def evolve_walkers(experiment_file, seeds, folder, steps=None):
 
 
 # %% whole_joints_only loses 5.2
-# Cuts angles off at -1 and 1 after scaling them, not before.
+# Cuts the default angles off at -1 and 1 after scaling, but the parameters should be cut off before.
 # -         "angles": 3 * np.pi / 4 * np.clip(parameters[42:53], -1, 1),
 # +         "angles": np.clip(3 * np.pi / 4 * parameters[42:53], -1, 1),
 
 
 # %% first_segment_missing loses 5.4
-# Leaves the torso out of the mass.
+# Leaves the torso out of the mass, but all segments should count.
 # -         "mass": float(size["masses"].sum()),
 # +         "mass": float(size["masses"][1:].sum()),
 
 
 # %% mirrored_matrix loses 5.7
-# Evaluates one half of the pairs only, and mirrors it.
+# Gives the return of brain i in body j for brain j in body i, too (i < j), but each pair has its own return.
 # says: mirrors the one above
 def cross_evaluate(experiment_file, walkers, seed, episodes):
     n = len(walkers)
@@ -425,35 +425,35 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 
 
 # %% first_episode_only loses 5.7
-# Counts the first episode only.
+# Counts the first episode only, but the mean over all episodes is asked for.
 # says: Only the first episode counts
 # -                 SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed, episodes).mean()
 # +                 SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed, episodes)[0]
 
 
 # %% own_body_only loses 5.7
-# Leaves each brain in its own body.
-# says: each brain stays in its own body
+# Leaves each brain in its own body, but it should be evaluated in every body.
+# says: that of the brain in its own body
 # -                 SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed, episodes).mean()
 # +                 SavedRobot(experiment_file, brain).evaluate(seed, episodes).mean()
 
 
 # %% size_without_factor loses 5.1
-# Adds 0.9 tanh p to the nominal size, instead of multiplying the size by 1 + 0.9 tanh p.
+# Adds 0.9 tanh p to the nominal size instead of multiplying the size by 1 + 0.9 tanh p.
 # says: this
 # -     lengths, thicknesses = 0.8 * scales[:, 0], 0.2 * scales[:, 1]
 # +     lengths, thicknesses = scales[:, 0] - 0.2, scales[:, 1] - 0.8
 
 
 # %% first_limits_then_others loses 5.2
-# Takes the first ten numbers for the one limits and the next ten for the others.
+# Takes the first ten parameters for one limit of each joint and the next ten for the other, but both stand side by side.
 # says: this
 # -     limits = np.pi / 2 * np.clip(parameters[22:42], -1, 1).reshape(JOINTS, 2)
 # +     limits = np.pi / 2 * np.clip(parameters[22:42], -1, 1).reshape(2, JOINTS).T
 
 
 # %% scales_of_angles_exchanged loses 5.2
-# Scales the default angles by pi / 2 and the limits by 3 pi / 4.
+# Scales the default angles by pi / 2 and the limits by 3 pi / 4, but it should be the other way round.
 # says: this
 # -     limits = np.pi / 2 * np.clip(parameters[22:42], -1, 1).reshape(JOINTS, 2)
 # +     limits = 3 * np.pi / 4 * np.clip(parameters[22:42], -1, 1).reshape(JOINTS, 2)
@@ -462,14 +462,14 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 
 
 # %% heading_of_the_one_before loses 5.3
-# Leaves a segment's own angle out of its heading: each has the heading of the one before.
+# Leaves a segment's own angle out of its heading: each has the heading that the one before it should have.
 # says: this
 # -     headings = np.cumsum(joints(parameters)["angles"])
 # +     headings = np.cumsum(joints(parameters)["angles"]) - joints(parameters)["angles"]
 
 
 # %% flat_torso loses 5.3
-# Lets the torso lie flat, whatever its angle to the ground.
+# Takes 0 for the default angle of the torso, but it should count in all headings.
 # says: this
 # -     headings = np.cumsum(joints(parameters)["angles"])
 # +     turns = joints(parameters)["angles"].copy()
@@ -478,35 +478,35 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 
 
 # %% freedom_of_the_amounts loses 5.4
-# Adds the amounts of the two limits, though both may lie on one side of the default angle.
+# Adds the amounts of the two limits for the freedom, but both may lie on one side of the default angle.
 # says: this
 # -         "freedom": float(np.mean(angles["upper"] - angles["lower"])),
 # +         "freedom": float(np.mean(np.abs(angles["upper"]) + np.abs(angles["lower"]))),
 
 
 # %% length_as_a_distance loses 5.4
-# Takes the distance from the first place to the last one for the length of all segments.
+# Takes the distance from the first place to the last one for the length, but all lengths should be added up.
 # says: this
 # -         "length": float(size["lengths"].sum()),
 # +         "length": float(np.linalg.norm(outline(parameters)[-1, 1:3].mean(axis=0))),
 
 
 # %% foreign_among_all loses 5.8
-# Counts the diagonal in the mean of the foreign returns.
+# Counts the diagonal in the mean of the foreign returns, but it should be left out.
 # says: this
 # -         "foreign": float(foreign / (n * n - n)),
 # +         "foreign": float(matrix.mean()),
 
 
 # %% foreign_above_the_diagonal loses 5.8
-# Counts only the places above the diagonal as foreign.
+# Counts only the places above the diagonal as foreign, but those below are foreign, too.
 # says: this
 # -         "foreign": float(foreign / (n * n - n)),
 # +         "foreign": float(matrix[np.triu_indices(n, 1)].mean()),
 
 
 # %% loss_as_a_share loses 5.8
-# Divides the loss by the own return.
+# Divides the losses of brains and bodies by the own return, but the differences themselves are asked for.
 # says: this
 # -         "brains": own - (matrix.sum(axis=1) - own) / (n - 1),
 # -         "bodies": own - (matrix.sum(axis=0) - own) / (n - 1),
@@ -514,14 +514,14 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 # +         "bodies": 1 - (matrix.sum(axis=0) - own) / (n - 1) / own,
 
 # %% factor_inside_tanh loses 5.1
-# The factor 0.9 stands inside tanh, where it belongs before it.
+# Takes tanh(0.9 p) for lengths and thicknesses instead of 0.9 tanh p.
 # says: this
 # -     scales = 1 + 0.9 * np.tanh(parameters[:22].reshape(SEGMENTS, 2))
 # +     scales = 1 + np.tanh(0.9 * parameters[:22].reshape(SEGMENTS, 2))
 
 
 # %% first_body_kept loses 5.1
-# Keeps the answer for the first body and gives it for all others.
+# Gives the answer for the first body for all others, too.
 # says: the same answer for 2 different bodies
 _sizes, _kept = sizes, {}
 
@@ -533,14 +533,14 @@ def sizes(parameters):
 
 
 # %% limits_cut_off_after_scaling loses 5.2
-# Cuts the limits off at -1 and 1 after scaling them, not before.
+# Cuts the limits off at -1 and 1 after scaling, but the parameters should be cut off before.
 # says: this
 # -     limits = np.pi / 2 * np.clip(parameters[22:42], -1, 1).reshape(JOINTS, 2)
 # +     limits = np.clip(np.pi / 2 * parameters[22:42], -1, 1).reshape(JOINTS, 2)
 
 
 # %% limits_to_both_sides loses 5.2
-# Takes the amount of one limit downwards and that of the other upwards; both can be on one side.
+# Takes the amount of one limit downwards and that of the other upwards, but both can lie on one side.
 # says: this
 # -         "lower": limits.min(axis=1),
 # -         "upper": limits.max(axis=1),
@@ -549,7 +549,7 @@ def sizes(parameters):
 
 
 # %% limits_sorted_in_place loses 5.2
-# Sorts the two limits of each joint in the parameters themselves.
+# Sorts the two limits of each joint in the given parameters themselves, but these should stay as they are.
 # says: changed the parameters
 # -     limits = np.pi / 2 * np.clip(parameters[22:42], -1, 1).reshape(JOINTS, 2)
 # +     parameters[22:42].reshape(JOINTS, 2).sort(axis=1)
@@ -557,7 +557,7 @@ def sizes(parameters):
 
 
 # %% angles_in_degrees loses 5.2
-# The angles are in degrees, but radians are asked for.
+# Gives the angles in degrees, but radians are asked for.
 # says: this
 # -     limits = np.pi / 2 * np.clip(parameters[22:42], -1, 1).reshape(JOINTS, 2)
 # -     return {
@@ -568,14 +568,14 @@ def sizes(parameters):
 
 
 # %% corners_row_by_row loses 5.3
-# The corners come as beginning right, beginning left, end left, end right.
+# Gives the corners in the order beginning right, beginning left, end left, end right, but "beginning left" should come last.
 # says: beginning right, beginning left, end left, end right
 # -     return np.stack([beginnings - side, ends - side, ends + side, beginnings + side], axis=1)
 # +     return np.stack([beginnings - side, beginnings + side, ends + side, ends - side], axis=1)
 
 
 # %% begins_with_the_one_before loses 5.3
-# Lets each segment begin where the one before it begins, not where that ends.
+# Lets each segment begin where the one before it begins, but it should begin where that one ends.
 # says: this
 # -     beginnings = np.vstack([[0.0, 0.0], ends[:-1]])
 # +     beginnings = np.vstack([[0.0, 0.0], [0.0, 0.0], ends[:-2]])
@@ -589,36 +589,36 @@ def sizes(parameters):
 
 
 # %% all_as_thick_as_the_torso loses 5.3
-# Draws all segments as thick as the torso.
+# Draws all segments as thick as the torso, but each should have its own thickness.
 # says: this
 # -     side = size["thicknesses"][:, None] / 2 * across
 # +     side = size["thicknesses"][0] / 2 * across
 
 
 # %% width_of_the_two_ends loses 5.4
-# Takes the way from the first place to the last one for width and height.
+# Takes the way from the first place to the last one for width and height, but all corners should count.
 # says: this
 # -     width, height = np.ptp(outline(parameters), axis=(0, 1))
 # +     width, height = np.abs(outline(parameters)[-1, 1:3].mean(axis=0))
 
 
 # %% freedom_of_the_extremes loses 5.4
-# Subtracts the lowest of all limits from the highest, though they belong to different joints.
+# Subtracts the lowest of all limits from the highest, but each joint should have its own difference.
 # says: this
 # -         "freedom": float(np.mean(angles["upper"] - angles["lower"])),
 # +         "freedom": float(np.max(angles["upper"]) - np.min(angles["lower"])),
 
 
 # %% length_without_torso loses 5.4
-# Leaves the torso out of the length.
+# Leaves the torso out of the length, but all segments should count.
 # says: this
 # -         "length": float(size["lengths"].sum()),
 # +         "length": float(size["lengths"][1:].sum()),
 
 
 # %% one_run_for_all loses 5.5
-# Runs the first seed only and returns its walker for all seeds.
-# says: All rows equal the first one|seed of the first
+# Returns the walker of the first seed for all seeds, but each seed should have its own run.
+# says: All rows equal the first one|to the first seed
 # -     for seed in seeds:
 # -         run = Run(experiment, seed)
 # +     for _ in seeds:
@@ -626,21 +626,21 @@ def sizes(parameters):
 
 
 # %% places_for_seeds loses 5.5
-# Takes the places 0 and 1 of the seeds for the seeds.
+# Uses the seeds 0, 1, ... instead of those that are given.
 # says: have the seeds 0 and 1
 # -     for seed in seeds:
 # +     for seed in range(len(seeds)):
 
 
 # %% zero_is_no_seed loses 5.5
-# Takes the seed 1 where the seed 0 is asked for.
+# Takes the seed 1 where the seed 0 is given.
 # says: seed like any other
 # -         run = Run(experiment, seed)
 # +         run = Run(experiment, seed or 1)
 
 
 # %% folder_above_missing loses 5.5
-# Makes the folder, but not the one above it.
+# Does not make the folders above the folder, but they should be made if they do not exist.
 # says: mkdir\(exist_ok=True\)
 # -     Path(folder).mkdir(parents=True, exist_ok=True)
 # -     experiment = config.load(experiment_file)
@@ -649,7 +649,7 @@ def sizes(parameters):
 
 
 # %% a_folder_for_each_seed loses 5.5
-# Leaves the files of each run in a folder of its own inside the folder.
+# Leaves the files of each run in a folder of its own, but they should all be in the folder that is given.
 # says: left no file
 # -         evolve(run, Path(folder), steps)
 # +         own = Path(folder) / str(seed)
@@ -658,7 +658,7 @@ def sizes(parameters):
 
 
 # %% best_walker_first loses 5.5
-# Orders the walkers by fitness, the best one first.
+# Returns the walkers with the best one first, but the order of `seeds` is asked for.
 # says: in another order than the seeds
 # -         walkers.append(run.record.bestg)
 # -     return np.array(walkers)
@@ -667,7 +667,7 @@ def sizes(parameters):
 
 
 # %% three_walkers_at_most loses 5.7
-# Makes a table of three rows and columns, however many walkers there are.
+# Makes a table of three rows and columns at most, but each walker should have a row and a column.
 # says: 3, 3
 # -                 for body in walkers
 # -             ]
@@ -678,7 +678,7 @@ def sizes(parameters):
 
 
 # %% bodies_overwritten_one_by_one loses 5.7
-# Overwrites the bodies in a copy of the table, so later rows take up wrong bodies.
+# Gives the brains of later rows bodies that have been overwritten in earlier rows, but the walkers' own bodies are asked for.
 # says: this
 def cross_evaluate(experiment_file, walkers, seed, episodes):
     walkers, n = walkers.copy(), len(walkers)
@@ -691,42 +691,42 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 
 
 # %% five_episodes_always loses 5.7
-# Lasts five episodes, however many are asked for.
+# Evaluates five episodes, however many are asked for.
 # -                 SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed, episodes).mean()
 # +                 SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed, 5).mean()
 
 
 # %% own_body_among_the_brains_others loses 5.8
-# Counts the own body in the mean of each brain's others.
+# Counts the own body among a brain's others for "brains", but it should be left out.
 # says: own place is counted
 # -         "brains": own - (matrix.sum(axis=1) - own) / (n - 1),
 # +         "brains": own - matrix.mean(axis=1),
 
 
 # %% the_other_diagonal loses 5.8
-# Takes the diagonal from the lower left to the upper right.
+# Takes the diagonal from the lower left to the upper right instead of the one from the upper left.
 # says: the other diagonal
 # -     own = np.diagonal(matrix)
 # +     own = np.diagonal(matrix[:, ::-1])
 
 
 # %% share_at_home loses 5.8
-# Returns the share of the brains that are at home, not their number.
+# Returns the share of the brains that are at home instead of their number.
 # says: share of the brains
 # -         "at home": int(np.sum(own > others.max(axis=1))),
 # +         "at home": float(np.mean(own > others.max(axis=1))),
 
 
 # %% loss_of_brains_as_a_share loses 5.8
-# Divides the loss of the brains by their own return.
+# Divides the loss of the brains by their own return, but the difference itself is asked for.
 # says: divided by the own return
 # -         "brains": own - (matrix.sum(axis=1) - own) / (n - 1),
 # +         "brains": 1 - (matrix.sum(axis=1) - own) / (n - 1) / own,
 
 
 # %% densities_of_the_angles loses 5.1
-# Takes the default angles for the densities.
-# says: begin at place 53, not at 42
+# Takes the parameters of the default angles for the densities, whose own are at the places 53 to 63.
+# says: from place 42 on, but they begin at place 53
 def sizes(parameters):
     t = np.tanh(parameters)
     lengths = 0.8 + 0.72 * t[:22:2]
@@ -740,7 +740,7 @@ def sizes(parameters):
 
 
 # %% smaller_in_amount loses 5.2
-# Takes the limit with the smaller amount for the lower one.
+# Takes the limit with the smaller amount for the lower one, but the more negative one should be the lower one.
 # says: amounts of the limits are compared
 def joints(parameters):
     limits = (np.pi / 2 * np.clip(parameters[22:42], -1, 1)).reshape(10, 2)
@@ -760,8 +760,8 @@ def joints(parameters):
 
 
 # %% torso_without_angle loses 5.2
-# Sets the default angle of the torso to 0.
-# says: torso has a default angle, too
+# Sets the default angle of the torso to 0, but it should come from its parameter.
+# says: torso's default angle is 0
 def joints(parameters):
     clipped = np.clip(parameters, -1, 1)
     pairs = np.sort(clipped[22:42].reshape(10, 2) * np.pi / 2, axis=1)
@@ -771,7 +771,7 @@ def joints(parameters):
 
 
 # %% sorted_over_the_joints loses 5.2
-# Sorts the limits of all joints, not the two of each.
+# Sorts the limits from joint to joint instead of the two of each joint.
 # says: each joint has its own two
 def joints(parameters):
     clipped = np.clip(parameters, -1, 1)
@@ -781,8 +781,8 @@ def joints(parameters):
 
 
 # %% next_from_the_left_corner loses 5.3
-# Lets the next segment begin at the left corner of the end, not in its middle.
-# says: not at the left corner there
+# Lets the next segment begin at the left corner of the end, but it should begin in the middle of the end.
+# says: begins at the left corner
 def outline(parameters):
     s = sizes(parameters)
     heads = np.cumsum(joints(parameters)["angles"])
@@ -797,8 +797,8 @@ def outline(parameters):
 
 
 # %% torso_angle_twice loses 5.3
-# Adds a segment's angle after it is drawn, and the torso's twice.
-# says: the sum of all default angles up to its own is
+# Counts the torso's angle twice from segment 1 on, and each other angle one segment too late.
+# says: the sum of all default angles up to its own
 def outline(parameters):
     size, angle = sizes(parameters), joints(parameters)["angles"]
     x, y, h = 0.0, 0.0, angle[0]
@@ -814,22 +814,22 @@ def outline(parameters):
 
 
 # %% torso_begins_at_the_end loses 5.3
-# Rolls the ends, so the torso begins where the last segment ends.
-# says: Segment 0 begins at .* there, not at
+# Lets the torso begin where the last segment ends, but it should begin at (0, 0).
+# says: Segment 0 begins at .*, but it should begin at
 # -     beginnings = np.vstack([[0.0, 0.0], ends[:-1]])
 # +     beginnings = np.roll(ends, 1, axis=0)
 
 
 # %% one_corner_of_each loses 5.4
-# Measures width and height with the first corner of each segment only.
-# says: not the first one only
+# Measures width and height with the first corner of each segment only, but all four should count.
+# says: Only the first corner of each segment
 # -     width, height = np.ptp(outline(parameters), axis=(0, 1))
 # +     width, height = np.ptp(outline(parameters)[:, 0], axis=0)
 
 
 # %% freedom_beyond_the_limits loses 5.4
-# Takes the parameters of the limits for the freedom without cutting them off.
-# says: the parameters go beyond them
+# Takes the freedom from parameters that are not cut off at -1 and 1, but they should be.
+# says: not cut off at -1 and 1
 def describe(parameters):
     s, o = sizes(parameters), outline(parameters)
     x, y = o[:, :, 0], o[:, :, 1]
@@ -844,14 +844,14 @@ def describe(parameters):
 
 
 # %% means_forgotten loses 5.6
-# Counts 35 numbers behind the body, but 35 means and 35 deviations follow it.
-# says: has 64\.|35 places too late
+# Lets 35 numbers follow the body, but 35 means and 35 deviations follow it.
+# says: stands before the last 70\.|35 places too late
 # -     return genotype[-2 * OBSERVATIONS - BODY : -2 * OBSERVATIONS]
 # +     return genotype[-OBSERVATIONS - BODY : -OBSERVATIONS]
 
 
 # %% seed_of_the_row loses 5.7
-# Evaluates each row with a seed of its own.
+# Evaluates each row with a seed of its own, but all pairs should have the same seed.
 # says: Each row has a seed of its own
 def cross_evaluate(experiment_file, walkers, seed, episodes):
     n = len(walkers)
@@ -864,7 +864,7 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 
 
 # %% nothing_on_the_diagonal loses 5.7
-# Leaves 0 on the diagonal: evaluates no brain in its own body.
+# Leaves 0 on the diagonal, but each brain should be evaluated in its own body, too.
 # says: The diagonal is left out
 def cross_evaluate(experiment_file, walkers, seed, episodes):
     n = len(walkers)
@@ -881,14 +881,14 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 
 
 # %% steps_shared loses 5.5
-# Shares the steps among the runs.
+# Shares the steps among the runs, but each run should have all of them.
 # says: steps are shared among the runs
 # -         evolve(run, Path(folder), steps)
 # +         evolve(run, Path(folder), steps // len(seeds) if steps else None)
 
 
 # %% losses_column_by_column loses 5.8
-# Subtracts the matrix from the diagonal row by row, which pairs a return with another column's.
+# Subtracts each return from the own return of its column for "brains", but the own return of its row is asked for.
 # says: own - matrix pairs them
 def loss(matrix):
     n = len(matrix)
@@ -905,27 +905,27 @@ def loss(matrix):
 
 
 # %% torso_turns_on loses 5.2
-# Cuts the angles of all segments off but the torso's.
+# Cuts off the parameters of all default angles but the torso's, which should be cut off, too.
 # -         "angles": 3 * np.pi / 4 * np.clip(parameters[42:53], -1, 1),
 # +         "angles": 3 * np.pi / 4 * np.append(parameters[42], np.clip(parameters[43:53], -1, 1)),
 
 
 # %% density_of_the_torso loses 5.1
-# Takes the density of the torso for all segments.
+# Takes the density of the torso for all segments, but each should have its own.
 # says: this
 # -     densities = 5 + 0.8 * np.tanh(parameters[53:])
 # +     densities = 5 + 0.8 * np.tanh(parameters[53])
 
 
 # %% across_the_torso loses 5.3
-# Takes the direction across the torso for all segments.
+# Takes the direction across the torso for all segments, but each should have its own.
 # says: this
 # -     side = size["thicknesses"][:, None] / 2 * across
 # +     side = size["thicknesses"][:, None] / 2 * across[0]
 
 
 # %% middle_as_a_fifth_corner loses 5.3
-# Adds the middle of each segment as a fifth corner.
+# Adds the middle of each segment as a fifth corner, but only its four corners are asked for.
 # says: five places for each segment|fifth corner
 # -     return np.stack([beginnings - side, ends - side, ends + side, beginnings + side], axis=1)
 # +     return np.stack(
@@ -935,21 +935,21 @@ def loss(matrix):
 
 
 # %% body_at_the_front loses 5.6
-# Puts the foreign body into the first 64 places, where the network begins.
+# Puts the foreign body into the first 64 places, but the network stands there.
 # says: this
 # -     chimera[-2 * OBSERVATIONS - BODY : -2 * OBSERVATIONS] = body_of(body)
 # +     chimera[:BODY] = body_of(body)
 
 
 # %% home_against_all_foreign loses 5.8
-# Compares each brain with the best of all foreign places, not with those of its own row.
+# Compares each brain with the best of all foreign places, but it should be compared with those of its own row.
 # says: this
 # -         "at home": int(np.sum(own > others.max(axis=1))),
 # +         "at home": int(np.sum(own > others.max())),
 
 
 # %% home_against_the_next loses 5.8
-# Compares each brain with the next body only, not with each of the others.
+# Compares each brain with the next body only, but it should be compared with each of the others.
 # says: this
 # -         "at home": int(np.sum(own > others.max(axis=1))),
 # +         "at home": int(np.sum(own > np.roll(matrix, -1, axis=1).diagonal())),
@@ -963,7 +963,7 @@ def loss(matrix):
 
 
 # %% old_robots_in_the_folder loses 5.5
-# Does not run a seed again whose file is in the folder already, though the steps are others now.
+# Returns the old walker of a seed whose file is in the folder already, but it should be run with the steps that are given.
 # says: or a file\.|files that were there before
 # -         run = Run(experiment, seed)
 # -         evolve(run, Path(folder), steps)
@@ -975,7 +975,7 @@ def loss(matrix):
 
 
 # %% all_files_of_the_folder loses 5.5
-# Gives the walkers of all files in the folder in the order of their names, not those of the seeds in their order.
+# Returns the walkers of all files in the folder, ordered by name, but those of `seeds` in their order are asked for.
 # says: whatever else is in the folder
 def evolve_walkers(
     experiment_file: str, seeds: list[int], folder: str, steps: int | None = None
@@ -988,7 +988,7 @@ def evolve_walkers(
 
 
 # %% tanh_of_two_exponentials loses 5.1
-# Writes tanh with two exponentials, of which a large parameter makes infinity: the quotient is NaN.
+# Gives NaN for very large parameters, where tanh is 1 or -1. (The quotient of two infinite exponentials is NaN.)
 # says: this
 def sizes(parameters: np.ndarray) -> dict:
     def squash(p):
@@ -1003,7 +1003,7 @@ def sizes(parameters: np.ndarray) -> dict:
 
 
 # %% limits_overwritten loses 5.2
-# Overwrites one limit before it is kept, so that both are the smaller one.
+# Gives the smaller limit of a joint as both limits if the larger one comes first.
 # says: this
 def joints(parameters: np.ndarray) -> dict:
     def cut(part):
@@ -1018,7 +1018,7 @@ def joints(parameters: np.ndarray) -> dict:
 
 
 # %% corners_in_two_rows loses 5.4
-# Makes two rows of all numbers (x and y mixed) instead of two columns.
+# Takes the first half of all corners' numbers for x and the second for y, but x and y stand side by side.
 # says: this
 # -     width, height = np.ptp(outline(parameters), axis=(0, 1))
 # +     x, y = outline(parameters).reshape(2, -1)
@@ -1026,7 +1026,7 @@ def joints(parameters: np.ndarray) -> dict:
 
 
 # %% body_counted_from_the_front loses 5.6
-# Counts where the body begins from the front, for a network of ten hidden neurons.
+# Takes the body from behind a network of ten hidden neurons, but the network can have another size.
 # says: this
 # -     return genotype[-2 * OBSERVATIONS - BODY : -2 * OBSERVATIONS]
 # +     hidden, outputs = 10, 10

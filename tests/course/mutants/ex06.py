@@ -2,18 +2,18 @@
 
 
 # %% forget_gate_without_one loses 6.1
-# The 1 that opens the forget gate is left out.
+# Leaves out the 1 that should be added to the forget gate's net input.
 # -     cells = memory[0] * logistic(forget + 1) + np.tanh(candidate) * logistic(enter)
 # +     cells = memory[0] * logistic(forget) + np.tanh(candidate) * logistic(enter)
 
 
 # %% gates_in_another_order loses 6.1
-# The input gate is taken for the forget gate.
+# Takes gates[0] for the input gate and gates[1] for the forget gate, but gates[0] should be the forget gate and gates[1] the input gate.
 # -     forget, enter, leave, candidate = brain["gates"] @ z
 # +     enter, forget, leave, candidate = brain["gates"] @ z
 
 # %% memory_overwritten loses 6.1
-# The new memory is written into the array of the old one.
+# Writes the new memory into the array `memory`, but the arrays given should stay as they are.
 # says: in place
 _think = think
 
@@ -25,7 +25,7 @@ def think(brain, observation, memory):
 
 
 # %% counts_from_one loses 6.2
-# Tells `remember` that the first step is number 1.
+# Tells `remember` that the first step is number 1, but it should be number 0.
 _episode = episode
 
 
@@ -37,7 +37,7 @@ def episode(brain, start, cylinder, seed, remember=keep, maxsteps=500):
 
 
 # %% cylinder_where_it_was loses 6.2
-# Leaves the cylinder where the seed has put it.
+# Leaves the cylinder where the seed has put it, but it should be at the given place.
 _episode = episode
 
 
@@ -61,7 +61,7 @@ def episode(brain, start, cylinder, seed, remember=keep, maxsteps=500):
 
 
 # %% poses_not_copied loses 6.2
-# Keeps a window on the arena instead of the pose of each step.
+# Gives the last pose in every row of poses, but the start and the pose after each step are asked for (arena.robots changes: copy it each time).
 # says: Keep a copy each time \(.copy\(\)\)
 _episode = episode
 
@@ -73,7 +73,7 @@ def episode(brain, start, cylinder, seed, remember=keep, maxsteps=500):
 
 
 # %% remembers_always loses 6.2
-# Does not ask what is to be remembered.
+# Keeps the new memory of `think` for the next step, whatever `remember` returns.
 _episode = episode
 
 
@@ -82,7 +82,7 @@ def episode(brain, start, cylinder, seed, remember=keep, maxsteps=500):
 
 
 # %% start_missing loses 6.2
-# Keeps no pose of the start.
+# Leaves the start out of poses, but it should be their first row.
 # says: The first one is missing
 _episode = episode
 
@@ -93,7 +93,7 @@ def episode(brain, start, cylinder, seed, remember=keep, maxsteps=500):
 
 
 # %% heading_slowest loses 6.3
-# Goes through all places with one heading, then with the next.
+# Goes through all places with one heading, then with the next, but the heading should change fastest.
 # says: in another order
 _grid = grid
 
@@ -104,20 +104,20 @@ def grid(places, headings):
 
 
 # %% whole_turn_twice loses 6.3
-# Has the headings 0 and 2 pi, which are the same.
+# Divides the whole turn so that the last heading is 2 pi, but 2 pi is 0 again and should be left out.
 # -     angles = np.arange(headings) * 2 * np.pi / headings
 # +     angles = np.linspace(0, 2 * np.pi, headings)
 
 
 # %% nothing_has_no_mean loses 6.4
-# Gives NaN where no step belongs to the search or to the time near the cylinder.
+# Gives NaN where no step belongs to the search or to the steps near the cylinder, but 0 is asked for.
 # says: NaN
 def mean(values):
     return float(np.sum(values)) / len(values) if len(values) else float("nan")
 
 
 # %% search_with_the_find loses 6.4
-# Counts the first step near the cylinder as part of the search.
+# Makes the search one step too long, but it should end before the first step with a reward.
 # says: one more than expected
 _describe = describe
 
@@ -130,7 +130,7 @@ def describe(poses, rewards, cylinder):
 
 
 # %% side_before_the_step loses 6.4
-# Looks for the cylinder from where the robot was before the step.
+# Takes the side from the pose before the step, not from that after it.
 _describe = describe
 
 
@@ -142,7 +142,7 @@ def describe(poses, rewards, cylinder):
 
 
 # %% speed_without_sign loses 6.4
-# Measures how far the robot moves, be it forwards or backwards.
+# Takes for the speed how far the robot moves in any direction, but the way along its heading is asked for, negative when it drives backwards.
 _describe = describe
 
 
@@ -153,7 +153,7 @@ def describe(poses, rewards, cylinder):
 
 
 # %% turning_leaps loses 6.4
-# A heading that goes beyond the whole turn counts as a turn back.
+# Takes the change of the heading as it is, but the short way around is asked for.
 _describe = describe
 
 
@@ -163,20 +163,20 @@ def describe(poses, rewards, cylinder):
 
 
 # %% wall_includes_its_limit loses 6.4
-# A robot exactly 72.5 mm from a wall counts as near it.
+# Counts a robot exactly 72.5 mm from a wall as near it, but only nearer ones should count.
 # -         "wall": mean(to_wall[:search] < 72.5),
 # +         "wall": mean(to_wall[:search] <= 72.5),
 
 
 # %% divides_by_rounding loses 6.5
-# Asks whether the deviation is exactly 0, which rounding prevents.
+# Gives 1 or -1 in a column of equal values whose standard deviation is a rounding error instead of exactly 0, but 0 is asked for.
 def standardise(table):
     deviation = table.std(axis=0)
     return (table - table.mean(axis=0)) / np.where(deviation == 0, 1.0, deviation)
 
 
 # %% nearest_relative loses 6.5
-# A family is as near as its nearest robot.
+# Takes the distance of the two nearest robots for that of two families, but the mean over all pairs of robots is asked for.
 def families(table, threshold):
     rows = standardise(table)
     labels = np.arange(len(rows))
@@ -189,7 +189,7 @@ def families(table, threshold):
 
 
 # %% numbered_backwards loses 6.5
-# The family of the first robot has the highest number.
+# Numbers the families in the opposite order, but the family of the first robot should be 0.
 _families = families
 
 
@@ -199,14 +199,14 @@ def families(table, threshold):
 
 
 # %% sample_deviation loses 6.5
-# Divides by n - 1 in the standard deviation.
+# Divides by n - 1 in the standard deviation, but n is asked for (ddof=0).
 # says: n and n - 1 were mixed up
 # -     deviation = table.std(axis=0)
 # +     deviation = table.std(axis=0, ddof=1)
 
 
 # %% scales_as_they_are loses 6.5
-# Compares steps, millimetres and radians.
+# Compares the descriptors as they are, but they should be standardised first.
 _families = families
 
 
@@ -220,26 +220,26 @@ def families(table, threshold):
 
 
 # %% merges_at_the_threshold loses 6.5
-# Families exactly as far apart as the threshold are merged.
+# Merges families exactly as far apart as the threshold, but they should be nearer than it.
 # -         if min(apart) >= threshold:
 # +         if min(apart) > threshold:
 
 
 # %% freezes_a_step_late loses 6.6
-# Lets the memory change once more in step `since`.
+# Lets the memory change once more in step `since`, but it should stay the same from that step on.
 def freeze(since):
     return lambda step, before, after: after if step <= since else before
 
 
 # %% frozen_is_forgotten loses 6.6
-# Empties the memory instead of freezing it.
+# Empties the memory from step `since` on, but it should stay as it was before that step.
 # says: All values are 0
 def freeze(since):
     return lambda step, before, after: after if step < since else np.zeros_like(after)
 
 
 # %% total_not_mean loses 6.6
-# Adds the returns of all episodes.
+# Adds the returns of all episodes, but their mean is asked for.
 # says: a sum|the sum
 _memory_test = memory_test
 
@@ -250,7 +250,7 @@ def memory_test(brain, starts, cylinder, seed, since, maxsteps=500):
 
 
 # %% memory_goes_on loses 6.7
-# Carries the memory on from one reaction to the next.
+# Hands the new memory on from one reaction to the next, but each reaction should have the memory given for it.
 def reactions(brain, observation, memories):
     actions, memory = [], memories[0]
     for _ in memories:
@@ -260,7 +260,7 @@ def reactions(brain, observation, memories):
 
 
 # %% only_cells loses 6.7
-# Shows the network the cells, but not the outputs of the step before.
+# Uses only the cells of each memory, but should use its outputs, too.
 _reactions = reactions
 
 
@@ -271,94 +271,94 @@ def reactions(brain, observation, memories):
 
 
 # %% outputs_without_tanh loses 6.1
-# The new cells go to the outputs without tanh.
+# Leaves out tanh of the new cells in the outputs.
 # says: this
 # -     outputs = np.tanh(cells) * logistic(leave)
 # +     outputs = cells * logistic(leave)
 
 
 # %% candidate_by_logistic loses 6.1
-# The candidate goes through the logistic function instead of tanh.
+# Puts the candidate through the logistic function instead of tanh.
 # says: this
 # -     cells = memory[0] * logistic(forget + 1) + np.tanh(candidate) * logistic(enter)
 # +     cells = memory[0] * logistic(forget + 1) + logistic(candidate) * logistic(enter)
 
 
 # %% cells_for_outputs loses 6.1
-# The network sees its cells instead of its outputs of the step before.
+# Puts the old cells into z instead of the outputs of the step before.
 # says: this
 # -     z = np.concatenate([observation, memory[1]])
 # +     z = np.concatenate([observation, memory[0]])
 
 
 # %% rows_of_memory_exchanged loses 6.1
-# The rows of the new memory are exchanged: the outputs stand before the cells.
+# Puts the outputs before the cells in the new memory, but the cells should come first.
 # says: this
 # -     return action, np.stack([cells, outputs])
 # +     return action, np.stack([outputs, cells])
 
 
 # %% outputs_before_observation loses 6.1
-# The outputs of the step before stand in front of the observation instead of behind it.
+# Puts the outputs of the step before in front of the observation in z, but they should come behind it.
 # says: this
 # -     z = np.concatenate([observation, memory[1]])
 # +     z = np.concatenate([memory[1], observation])
 
 
 # %% action_without_tanh loses 6.1
-# The action is not put through tanh.
+# Leaves out tanh of the action.
 # says: this
 # -     action = np.tanh(brain["readout"] @ outputs + brain["bias"])
 # +     action = brain["readout"] @ outputs + brain["bias"]
 
 
 # %% action_of_the_cells loses 6.1
-# The action is read from the cells instead of the outputs.
+# Reads the action from the new cells instead of the new outputs.
 # says: this
 # -     action = np.tanh(brain["readout"] @ outputs + brain["bias"])
 # +     action = np.tanh(brain["readout"] @ cells + brain["bias"])
 
 
 # %% old_cells_kept_whole loses 6.1
-# The forget gate is not applied: the old cells are kept whole.
+# Leaves out the forget gate, so that the old cells are kept whole.
 # says: this
 # -     cells = memory[0] * logistic(forget + 1) + np.tanh(candidate) * logistic(enter)
 # +     cells = memory[0] + np.tanh(candidate) * logistic(enter)
 
 
 # %% shows_the_old_cells loses 6.1
-# The outputs show the cells of the step before, not the new ones.
+# Computes the new outputs from the old cells instead of the new ones.
 # -     outputs = np.tanh(cells) * logistic(leave)
 # +     outputs = np.tanh(memory[0]) * logistic(leave)
 
 
 # %% input_gate_is_the_rest loses 6.1
-# The input gate is 1 minus the forget gate, not a gate of its own.
+# Takes 1 minus the forget gate for the input gate, which should have weights of its own.
 # -     cells = memory[0] * logistic(forget + 1) + np.tanh(candidate) * logistic(enter)
 # +     kept = logistic(forget + 1)
 # +     cells = memory[0] * kept + np.tanh(candidate) * (1 - kept)
 
 
 # %% readout_without_bias loses 6.1
-# The bias of the two wheels is left out.
+# Leaves out the bias of the two wheels.
 # -     action = np.tanh(brain["readout"] @ outputs + brain["bias"])
 # +     action = np.tanh(brain["readout"] @ outputs)
 
 
 # %% five_hundred_steps_always loses 6.2
-# An episode lasts up to 500 steps, whatever is asked for.
+# Lets the episode last up to 500 steps, whatever maxsteps is.
 # -     arena = arenas.make("discrim", max_steps=maxsteps)
 # +     arena = arenas.make("discrim", max_steps=500)
 
 
 # %% seed_not_used loses 6.2
-# The arena is reset with the same seed in every episode.
+# Resets the arena with the seed 0 in every episode, but should reset it with `seed`.
 # -     arena.reset(seed)
 # +     arena.reset(0)
 
 
 # %% sensed_before_it_was_moved loses 6.2
-# The first observation is that of the place where the seed has put the robot.
+# Takes the first observation from the places where the seed has put robot and cylinder, not from the given places.
 # -     arena.robots[0] = start
 # -     arena.objects[0, :2] = cylinder
 # -     arena.sense()
@@ -367,7 +367,7 @@ def reactions(brain, observation, memories):
 
 
 # %% upper_end_left_out loses 6.3
-# The last place of each row is left out of the range: the upper ends are missing.
+# Leaves out the upper ends of x and y, but both ends should be included.
 # says: this
 # -     ys, xs = np.linspace(270, 350, places), np.linspace(150, 250, places)
 # +     steps = np.arange(places) / places
@@ -375,49 +375,49 @@ def reactions(brain, observation, memories):
 
 
 # %% never_near_searches_nothing loses 6.4
-# A robot that never gets near the cylinder has a search of 0 steps.
+# Gives a search of 0 steps if there is no reward, but all steps should belong to the search then.
 # says: search is 0, but
 # -     search = int(near.argmax()) if near.any() else len(rewards)
 # +     search = int(near.argmax())
 
 
 # %% pace_forwards loses 6.4
-# The pace counts the way forwards alone, with its sign.
+# Takes for the pace the way along the heading, with its sign, but the length of the way is asked for.
 # says: this
 # -         "pace": mean(np.hypot(*moved[near].T)),
 # +         "pace": mean(forward[near]),
 
 
 # %% wall_of_the_whole_episode loses 6.4
-# The time near a wall is that of the whole episode, not of the search.
+# Takes "wall" over the whole episode, not over the search alone.
 # says: this
 # -         "wall": mean(to_wall[:search] < 72.5),
 # +         "wall": mean(to_wall < 72.5),
 
 
 # %% side_in_the_arena loses 6.4
-# The side is where the cylinder lies in the arena, not as the robot sees it.
+# Takes the sine of the direction of the cylinder without subtracting the heading.
 # says: this
 # -     bearing = np.arctan2(away[:, 1], away[:, 0]) - after[:, 2]
 # +     bearing = np.arctan2(away[:, 1], away[:, 0])
 
 
 # %% farthest_relative loses 6.5
-# Two families are as far apart as their most different robots.
+# Takes the distance of the two most different robots for that of two families, but the mean over all pairs of robots is asked for.
 # says: this
 # -         apart = [distance[np.ix_(groups[i], groups[j])].mean() for i, j in pairs]
 # +         apart = [distance[np.ix_(groups[i], groups[j])].max() for i, j in pairs]
 
 
 # %% city_blocks loses 6.5
-# The distance is the sum of the differences, not the straight line.
+# Takes the sum of the absolute differences for the distance of two robots, but the length of the difference is asked for.
 # says: this
 # -     distance = np.linalg.norm(rows[:, None] - rows[None], axis=2)
 # +     distance = np.abs(rows[:, None] - rows[None]).sum(axis=2)
 
 
 # %% frozen_from_the_first_episode loses 6.6
-# The frozen memory is that of the first episode: it is kept from one episode to the next.
+# Keeps the frozen memory of the first episode for the later ones, but each episode should freeze its own.
 def freeze(since):
     kept = []
 
@@ -431,7 +431,7 @@ def freeze(since):
 
 
 # %% one_seed_for_all_starts loses 6.6
-# All episodes have the same seed.
+# Gives all episodes the same seed, but that from starts[i] should have `seed + i`.
 # -             episode(brain, start, cylinder, seed + i, remember, maxsteps)
 # -             for i, start in enumerate(starts)
 # +             episode(brain, start, cylinder, seed, remember, maxsteps)
@@ -439,53 +439,53 @@ def freeze(since):
 
 
 # %% last_reward_for_the_return loses 6.6
-# The return is the reward of the last step.
+# Takes the reward of the last step for the return, but the sum of all rewards is asked for.
 # -         returns[name] = float(np.mean([each["rewards"].sum() for each in episodes]))
 # +         returns[name] = float(np.mean([each["rewards"][-1] for each in episodes]))
 
 
 # %% forgets_the_cells_alone loses 6.6
-# Only the cells are forgotten: the outputs of the step before stay.
+# Sets only the cells to 0, but the outputs should be 0, too.
 def forget(step, before, after):
     return np.stack([np.zeros_like(after[0]), after[1]])
 
 
 # %% memories_are_averaged loses 6.7
-# Reacts with the mean of all memories.
+# Reacts with the mean of all memories each time, but each reaction should have the memory given for it.
 # -     return np.array([think(brain, observation, memory)[0] for memory in memories])
 # +     mean_memory = np.mean(memories, axis=0)
 # +     return np.array([think(brain, observation, mean_memory)[0] for memory in memories])
 
 # %% one_after_the_logistic loses 6.1
-# The 1 is added after the logistic function of the forget gate, not inside it.
+# Adds the 1 after the logistic function of the forget gate, but it should be added inside.
 # says: this
 # -     cells = memory[0] * logistic(forget + 1) + np.tanh(candidate) * logistic(enter)
 # +     cells = memory[0] * (logistic(forget) + 1) + np.tanh(candidate) * logistic(enter)
 
 
 # %% one_for_the_input_gate loses 6.1
-# The 1 is added for the input gate, not for the forget gate.
+# Adds the 1 to the net input of the input gate instead of the forget gate.
 # says: this
 # -     cells = memory[0] * logistic(forget + 1) + np.tanh(candidate) * logistic(enter)
 # +     cells = memory[0] * logistic(forget) + np.tanh(candidate) * logistic(enter + 1)
 
 
 # %% action_of_the_step_before loses 6.1
-# The action is read from the outputs of the step before.
+# Reads the action from the outputs of the step before instead of the new ones.
 # says: this
 # -     action = np.tanh(brain["readout"] @ outputs + brain["bias"])
 # +     action = np.tanh(brain["readout"] @ memory[1] + brain["bias"])
 
 
 # %% gates_and_units_mixed_up loses 6.1
-# Takes each four rows in turn for the four gates of a unit, but a gate has its ten rows together.
+# Takes each four of the 40 rows in turn for the four gates of one unit, but each gate has its ten rows together.
 # says: this
 # -     forget, enter, leave, candidate = brain["gates"] @ z
 # +     forget, enter, leave, candidate = (brain["gates"].reshape(40, 18) @ z).reshape(10, 4).T
 
 
 # %% own_memory_for_all loses 6.1
-# Goes on with a memory that it keeps itself, whatever memory is given.
+# Goes on with the memory of the call before, whatever `memory` is given.
 # says: stays from call to call
 _think, _own = think, []
 
@@ -497,35 +497,35 @@ def think(brain, observation, memory):
 
 
 # %% end_missing loses 6.2
-# The pose after the last step is not recorded.
+# Leaves the pose after the last step out of poses.
 # says: this
 # -     return {"poses": np.array(poses), **{name: np.array(column) for name, column in columns}}
 # +     return {"poses": np.array(poses[:-1]), **{name: np.array(column) for name, column in columns}}
 
 
 # %% drives_on_after_a_collision loses 6.2
-# A collision does not end the episode: it always has maxsteps steps.
+# Goes on to maxsteps after a collision, but the episode should end with it.
 # says: this
 # -     while not arena.done:
 # +     for _ in range(maxsteps):
 
 
 # %% one_step_too_few loses 6.2
-# The episode ends one step before maxsteps.
+# Ends the episode one step before maxsteps.
 # says: this
 # -     while not arena.done:
 # +     while not arena.done and len(steps) < maxsteps - 1:
 
 
 # %% heading_where_it_was loses 6.2
-# Puts the robot at x and y of the start, but leaves its heading.
+# Puts the robot at x and y of the start, but leaves the heading that the seed has given it.
 # says: this
 # -     arena.robots[0] = start
 # +     arena.robots[0, :2] = start[:2]
 
 
 # %% memory_of_the_last_episode loses 6.2
-# Goes on with the memory of the episode before instead of 0.
+# Begins with the memory that the episode before has left, but it should begin with 0.
 # says: stays from call to call
 # -     memory = np.zeros((2, UNITS))
 # -     poses, steps = [arena.robots[0].copy()], []
@@ -555,42 +555,42 @@ _LAST = [np.zeros((2, UNITS))]
 
 
 # %% y_before_x loses 6.3
-# y changes faster than x.
+# Lets y change faster than x, but x should change faster than y.
 # says: this
 # -     return np.array([(x, y, angle) for y in ys for x in xs for angle in angles])
 # +     return np.array([(x, y, angle) for x in xs for y in ys for angle in angles])
 
 
 # %% headings_in_degrees loses 6.3
-# The headings are in degrees.
+# Gives the headings in degrees instead of radians.
 # says: this
 # -     angles = np.arange(headings) * 2 * np.pi / headings
 # +     angles = np.arange(headings) * 360 / headings
 
 
 # %% whole_millimetres loses 6.3
-# Cuts the fractions of x and y off.
+# Cuts the fractions of x and y off, but they should be kept.
 # says: this
 # -     ys, xs = np.linspace(270, 350, places), np.linspace(150, 250, places)
 # +     ys, xs = (np.linspace(a, b, places).astype(int) for a, b in ((270, 350), (150, 250)))
 
 
 # %% from_minus_pi loses 6.3
-# The headings begin at minus pi, not at 0.
+# Begins the headings at minus pi instead of 0.
 # says: this
 # -     angles = np.arange(headings) * 2 * np.pi / headings
 # +     angles = np.arange(headings) * 2 * np.pi / headings - np.pi
 
 
 # %% search_is_all_without_reward loses 6.4
-# Counts all steps without a reward as search, also those after the robot has found the cylinder.
+# Counts all steps without a reward as search, but the search should end at the first reward.
 # says: this
 # -         "search": search,
 # +         "search": int((~near).sum()),
 
 
 # %% means_of_all_without_reward loses 6.4
-# Speed and turning are means over all steps without a reward, not over the search.
+# Takes speed and turning over all steps without a reward, not over the search alone.
 # says: this
 # -         "speed": mean(forward[:search]),
 # -         "turning": mean(turned[:search]),
@@ -599,42 +599,42 @@ _LAST = [np.zeros((2, UNITS))]
 
 
 # %% turning_without_sign loses 6.4
-# The turning has lost its sign: left and right no longer cancel out.
+# Takes the absolute value of the turning in each step, but turns to the right should be negative.
 # says: this
 # -         "turning": mean(turned[:search]),
 # +         "turning": mean(np.abs(turned[:search])),
 
 
 # %% turning_from_zero_on loses 6.4
-# The turning lies between 0 and 2 pi: a turn to the right becomes a long one to the left.
+# Takes a turn to the right for a long one to the left, from 0 to 2 pi, but the short way around is asked for.
 # says: this
 # -     turned = (after[:, 2] - before[:, 2] + np.pi) % (2 * np.pi) - np.pi
 # +     turned = (after[:, 2] - before[:, 2]) % (2 * np.pi)
 
 
 # %% turning_in_degrees loses 6.4
-# The turning is in degrees.
+# Gives the turning in degrees instead of radians.
 # says: this
 # -         "turning": mean(turned[:search]),
 # +         "turning": mean(np.degrees(turned[:search])),
 
 
 # %% two_walls_only loses 6.4
-# Looks only at the left and the lower wall.
+# Looks only at the left and the lower wall, but should look at all four.
 # says: this
 # -     to_wall = np.minimum(before[:, :2], 400 - before[:, :2]).min(axis=1)
 # +     to_wall = before[:, :2].min(axis=1)
 
 
 # %% corners_only loses 6.4
-# Counts a step as near a wall only if two walls are near.
+# Counts a step as near a wall only if two walls are near, but one should be enough.
 # says: this
 # -     to_wall = np.minimum(before[:, :2], 400 - before[:, :2]).min(axis=1)
 # +     to_wall = np.minimum(before[:, :2], 400 - before[:, :2]).max(axis=1)
 
 
 # %% steps_at_the_wall loses 6.4
-# Counts the steps near a wall: their share is asked for.
+# Counts the steps near a wall, but their share of the search is asked for.
 # says: this
 # -         "wall": mean(to_wall[:search] < 72.5),
 # +         "wall": float(np.sum(to_wall[:search] < 72.5)),
@@ -648,28 +648,28 @@ _LAST = [np.zeros((2, UNITS))]
 
 
 # %% pace_of_all_after_the_search loses 6.4
-# The pace is a mean over all steps after the search, also those without a reward.
+# Takes the pace over all steps after the search, not only over those with a reward.
 # says: this
 # -         "pace": mean(np.hypot(*moved[near].T)),
 # +         "pace": mean(np.hypot(*moved[search:].T)),
 
 
 # %% sine_of_the_mean loses 6.4
-# The side is the sine of the mean angle, not the mean of the sines.
+# Takes the sine of the mean angle for the side, but the mean of the sines is asked for.
 # says: this
 # -         "side": mean(np.sin(bearing[near])),
 # +         "side": float(np.sin(mean(bearing[near]))),
 
 
 # %% one_scale_for_all_columns loses 6.5
-# Takes mean and deviation of the whole table, not of each column.
+# Takes the mean and the standard deviation of the whole table instead of each column.
 # says: this
 def standardise(table):
     return (table - table.mean()) / table.std()
 
 
 # %% distance_of_the_means loses 6.5
-# The distance of two families is that of their means, not the mean distance of their robots.
+# Takes the distance of the mean rows of two families, but the mean distance over all pairs of their robots is asked for.
 # says: this
 # -         apart = [distance[np.ix_(groups[i], groups[j])].mean() for i, j in pairs]
 # +         centres = [rows[group].mean(axis=0) for group in groups]
@@ -677,7 +677,7 @@ def standardise(table):
 
 
 # %% joins_the_first_that_is_near loses 6.5
-# Goes through the robots once: each joins the first family that is near, not the nearest ones.
+# Puts each robot in turn into the first family that is near, but the two nearest families should be merged, again and again.
 # says: this
 def families(table, threshold):
     rows, groups = standardise(table), []
@@ -692,14 +692,14 @@ def families(table, threshold):
 
 
 # %% largest_family_first loses 6.5
-# The largest family has number 0, not that of the first robot.
+# Gives the number 0 to the largest family, but the family of the first robot should have it.
 # says: this
 # -     groups.sort(key=min)
 # +     groups.sort(key=lambda group: (-len(group), min(group)))
 
 
 # %% families_weigh_alike loses 6.5
-# When two families merge, their distances are averaged whatever their sizes.
+# Averages the distances of two merged families whatever their sizes, but the mean over all pairs of robots is asked for.
 # says: this
 def families(table, threshold):
     rows = standardise(table)
@@ -724,28 +724,28 @@ def families(table, threshold):
 
 
 # %% seeds_run_on loses 6.6
-# Goes on counting seeds from one kind of memory to the next, but all three have the same seeds.
+# Goes on counting seeds from one kind of memory to the next, but all three should have the same seeds.
 # says: this
 # -             episode(brain, start, cylinder, seed + i, remember, maxsteps)
 # +             episode(brain, start, cylinder, seed + i + len(starts) * len(returns), remember, maxsteps)
 
 
 # %% reward_of_a_step loses 6.6
-# Takes the mean reward of a step, not the return of an episode.
+# Takes the mean reward of a step instead of the return of an episode.
 # says: this
 # -         returns[name] = float(np.mean([each["rewards"].sum() for each in episodes]))
 # +         returns[name] = float(np.mean([each["rewards"].mean() for each in episodes]))
 
 
 # %% sight_left_out loses 6.7
-# Shows the network no observation, only the memories.
+# Shows the network zeros instead of the observation.
 # says: this
 # -     return np.array([think(brain, observation, memory)[0] for memory in memories])
 # +     return np.array([think(brain, 0 * observation, memory)[0] for memory in memories])
 
 
 # %% maxsteps_not_handed_on loses 6.6
-# Does not hand maxsteps on: the episodes last up to 500 steps.
+# Lets the episodes last up to 500 steps, whatever maxsteps is.
 # says: this
 # -             episode(brain, start, cylinder, seed + i, remember, maxsteps)
 # +             episode(brain, start, cylinder, seed + i, remember)
@@ -759,15 +759,15 @@ def families(table, threshold):
 
 
 # %% bias_after_tanh loses 6.1
-# The bias of the wheels is added after tanh.
+# Adds the bias of the wheels after tanh, but it should be added inside.
 # says: added after tanh
 # -     action = np.tanh(brain["readout"] @ outputs + brain["bias"])
 # +     action = np.tanh(brain["readout"] @ outputs) + brain["bias"]
 
 
 # %% output_gate_sees_new_cells loses 6.1
-# The output gate sees tanh of the new cells instead of the outputs of the step before.
-# says: all gates see the same z
+# Shows the output gate tanh of the new cells instead of the outputs of the step before.
+# says: all gates should see the same z
 def think(brain, observation, memory):
     z = np.concatenate([observation, memory[1]])
     Wf, Wi, Wo, Wc = brain["gates"]
@@ -778,7 +778,7 @@ def think(brain, observation, memory):
 
 
 # %% rows_exchanged_throughout loses 6.1
-# Takes row 0 of the memory for the outputs and row 1 for the cells, old and new.
+# Takes row 0 of the memory for the outputs and row 1 for the cells, but row 0 should be the cells and row 1 the outputs.
 # says: Cells and outputs are exchanged
 def think(brain, observation, memory):
     h, c = memory
@@ -790,7 +790,7 @@ def think(brain, observation, memory):
 
 
 # %% keeps_what_is_not_taken loses 6.1
-# Keeps 1 minus the input gate of the old cells: the forget gate is not used.
+# Multiplies the old cells by 1 minus the input gate instead of the forget gate.
 # says: 1 minus the input gate
 def think(brain, observation, memory):
     z = np.concatenate([observation, memory[1]])
@@ -802,14 +802,14 @@ def think(brain, observation, memory):
 
 
 # %% headings_floored loses 6.3
-# Divides the whole turn with `//`, which cuts the fraction off.
+# Cuts off the fraction of the step between headings, but they should divide the whole turn evenly.
 # says: fraction of the step between headings is cut off
 # -     angles = np.arange(headings) * 2 * np.pi / headings
 # +     angles = np.arange(headings) * (2 * np.pi // headings)
 
 
 # %% near_is_all_after_the_search loses 6.4
-# Counts all steps after the search as near the cylinder, for pace and side.
+# Counts all steps after the search as near the cylinder, but only those with a reward should count.
 # says: All steps after the search count
 def describe(poses, rewards, cylinder):
     n = len(rewards)
@@ -833,8 +833,8 @@ def describe(poses, rewards, cylinder):
 
 
 # %% search_goes_on_after_the_find loses 6.4
-# Speed, turning and wall count all steps without a reward.
-# says: the search ends at the first reward
+# Takes speed, turning and wall over all steps without a reward, not over the search alone.
+# says: the search should end at the first reward
 def describe(poses, rewards, cylinder):
     near = rewards == 1
     far = ~near
@@ -859,7 +859,7 @@ def describe(poses, rewards, cylinder):
 
 
 # %% short_way_on_one_side loses 6.4
-# Takes the short way around in one direction only.
+# Takes the short way around for changes below -pi only, but it is asked for above pi, too.
 # says: Only one direction is taken the short way
 # -     turned = (after[:, 2] - before[:, 2] + np.pi) % (2 * np.pi) - np.pi
 # +     turned = after[:, 2] - before[:, 2]
@@ -867,7 +867,7 @@ def describe(poses, rewards, cylinder):
 
 
 # %% hops_between_rewards loses 6.4
-# Measures from one place with a reward to the next such place.
+# Takes for the pace the way from one place with a reward to the next such place, but the way in each step is asked for.
 # says: from one place with a reward to the next
 def describe(poses, rewards, cylinder):
     near = rewards > 0
@@ -901,22 +901,22 @@ def describe(poses, rewards, cylinder):
 
 
 # %% deviation_and_a_bit loses 6.5
-# Adds 0.01 to the standard deviation.
+# Divides by the standard deviation plus 0.01 instead of the standard deviation.
 # says: Your code divides by
 def standardise(table):
     return (table - table.mean(axis=0)) / (table.std(axis=0) + 0.01)
 
 
 # %% first_pair_that_is_near loses 6.5
-# Merges the first pair nearer than the threshold, not the two nearest families.
-# says: not the two nearest
+# Merges the first pair nearer than the threshold, but the two nearest families should be merged.
+# says: the two nearest families should be merged
 # -         i, j = pairs[int(np.argmin(apart))]
 # +         i, j = next(p for p, a in zip(pairs, apart) if a < threshold)
 
 
 # %% keeps_the_new_memory_for_good loses 6.6
-# Keeps the memory after step `since` of the first episode.
-# says: it stays what `before` is
+# Keeps the memory after step `since` of the first episode, but the memory before step `since` of each episode is asked for.
+# says: it should stay what `before` is
 def freeze(since):
     kept = []
 
@@ -931,29 +931,29 @@ def freeze(since):
 
 
 # %% median_of_the_returns loses 6.6
-# Takes the median of the returns.
+# Takes the median of the returns instead of the mean.
 # says: The median of the returns
 # -         returns[name] = float(np.mean([each["rewards"].sum() for each in episodes]))
 # +         returns[name] = float(np.median([each["rewards"].sum() for each in episodes]))
 
 
 # %% reads_the_old_outputs loses 6.7
-# Reads the actions from the given outputs without a step of the network.
-# says: `think` is not called
+# Reads the actions from the given outputs, but a step of the network with each memory is asked for.
+# says: a step of the network with each memory is asked for
 def reactions(brain, observation, memories):
     h = memories[:, 1]
     return np.tanh(h @ brain["readout"].T + brain["bias"])
 
 
 # %% grid_reshaped loses 6.3
-# The table of meshgrid is reshaped to rows, which mixes x, y and heading.
+# Reshapes all x, y and headings to rows of three, which mixes them up, but a row should hold x, y, heading.
 # says: reshaped to rows of three
 # -     return np.array([(x, y, angle) for y in ys for x in xs for angle in angles])
 # +     return np.array(np.meshgrid(xs, ys, angles)).reshape(-1, 3)
 
 
 # %% memories_reshaped loses 6.7
-# The memories are reshaped to cells and outputs, which mixes those of different memories.
+# Reshapes the memories to cells and outputs, which mixes those of different memories.
 # says: mixes those of different memories
 # -     return np.array([think(brain, observation, memory)[0] for memory in memories])
 # +     parts = np.moveaxis(np.asarray(memories).reshape(2, len(memories), -1), 0, 1)
@@ -961,7 +961,7 @@ def reactions(brain, observation, memories):
 
 
 # %% one_memory_for_all_episodes loses 6.2
-# All episodes change one memory in place: it does not begin at 0, and its rows are all the last.
+# Begins with the memory that the episode before has left, not with 0, and gives the last memory in every row of memories (copy it).
 # says: something that stays from call to call
 # -     memory = np.zeros((2, UNITS))
 # +     memory = SHARED
@@ -971,28 +971,28 @@ SHARED = np.zeros((2, 10))
 
 
 # %% memory_changed_in_place loses 6.2
-# The memory is changed in place, so that all recorded memories are the last one.
+# Gives the last memory in every row of memories, but the memory that the network was given in each step is asked for.
 # says: this
 # -         memory = remember(len(steps) - 1, memory, after)
 # +         memory[:] = remember(len(steps) - 1, memory, after)
 
 
 # %% reset_without_the_seed loses 6.2
-# The arena is reset without the seed, so the noise is another one.
+# Resets the arena without `seed`, so that the sensors have another noise.
 # says: this
 # -     arena.reset(seed)
 # +     arena.reset()
 
 
 # %% start_kept_for_all_poses loses 6.2
-# Each recorded pose is the start: the robot moves, but its poses are not looked at.
+# Gives the start in every row of poses, but the robot's pose after each step is asked for.
 # says: this
 # -         poses.append(arena.robots[0].copy())
 # +         poses.append(np.array(start, dtype=float))
 
 
 # %% sensed_before_the_cylinder loses 6.2
-# The first observation is renewed after the robot is placed, but before the cylinder is.
+# Takes the first observation with the cylinder where the seed has put it, not at the given place.
 # -     arena.objects[0, :2] = cylinder
 # -     arena.sense()
 # +     arena.sense()
@@ -1000,14 +1000,14 @@ SHARED = np.zeros((2, 10))
 
 
 # %% last_family_is_taken loses 6.5
-# Whatever pair is nearest, the last family in the list is merged into the first one of the pair.
+# Merges the last family in the list into the first one of the nearest pair, but the two of the pair should be merged.
 # says: this
 # -         groups[i] += groups.pop(j)
 # +         groups[i] += groups.pop()
 
 
 # %% last_family_left_out loses 6.5
-# The last family in the list takes part in no merger.
+# Leaves the last family in the list out of all mergers, but it should take part in them.
 # says: this
 # -     while len(groups) > 1:
 # +     while len(groups) > 2:
@@ -1016,42 +1016,42 @@ SHARED = np.zeros((2, 10))
 
 
 # %% last_robot_of_a_family loses 6.5
-# The distance of two families counts only the robot that joined the one of them last.
+# Takes the mean distance of only the last robot in one of two families to those of the other, but the mean over all pairs is asked for.
 # says: this
 # -         apart = [distance[np.ix_(groups[i], groups[j])].mean() for i, j in pairs]
 # +         apart = [distance[np.ix_(groups[i], groups[j])][-1].mean() for i, j in pairs]
 
 
 # %% ends_when_the_farthest_are_far loses 6.5
-# Merging ends when the two farthest families are not nearer than the threshold.
+# Ends merging when the two farthest families are not nearer than the threshold, but the two nearest should decide.
 # says: this
 # -         if min(apart) >= threshold:
 # +         if max(apart) >= threshold:
 
 
 # %% all_from_the_first_start loses 6.6
-# All episodes begin at the first start.
+# Begins all episodes at the first start, but episode i should begin at starts[i].
 # says: this
 # -             episode(brain, start, cylinder, seed + i, remember, maxsteps)
 # +             episode(brain, starts[0], cylinder, seed + i, remember, maxsteps)
 
 
 # %% forgets_and_returns_nothing loses 6.6
-# Empties the array that `forget` is given, and returns None instead of a memory.
+# Returns None, but `forget` should return a memory of zeros.
 # says: this
 def forget(step, before, after):
     after[:] = 0
 
 
 # %% memory_of_the_reaction_before loses 6.7
-# Each reaction has the memory of the one before in the list; the first one has the last memory.
+# Uses memories[i - 1] for reaction i, and the last memory for the first one, but should use memories[i].
 # says: this
 # -     return np.array([think(brain, observation, memory)[0] for memory in memories])
 # +     return np.array([think(brain, observation, memories[i - 1])[0] for i in range(len(memories))])
 
 
 # %% corners_count_twice loses 6.4
-# A step in a corner, near two walls, counts twice: it is one step near a wall.
+# Counts a step near two walls twice, but it should count once.
 # says: this
 # -         "wall": mean(to_wall[:search] < 72.5),
 # +         "wall": sum(
@@ -1066,7 +1066,7 @@ def forget(step, before, after):
 
 
 # %% reactions_without_the_one loses 6.7
-# Computes the step anew, without the 1 that is added for the forget gate: use think.
+# Leaves out the 1 that `think` adds to the forget gate's net input.
 # says: this
 def reactions(brain, observation, memories):
     memories = np.asarray(memories)
@@ -1079,14 +1079,14 @@ def reactions(brain, observation, memories):
 
 
 # %% frozen_in_one_step_only loses 6.6
-# Holds the memory in step `since` only, not from then on.
+# Holds the memory in step `since` only, but it should stay the same from that step on.
 # says: this
 # -     return lambda step, before, after: after if step < since else before
 # +     return lambda step, before, after: before if step == since else after
 
 
 # %% central_differences_of_poses loses 6.4
-# Takes central differences (np.gradient) for the movement of a step.
+# Takes central differences, as np.gradient does, for the movement of a step, but the way from poses[t] to poses[t + 1] is asked for.
 # says: this
 def describe(poses, rewards, cylinder):
     x, y, heading = poses.T
@@ -1108,7 +1108,7 @@ def describe(poses, rewards, cylinder):
 
 
 # %% inconsistency_for_distance loses 6.5
-# Calls fcluster without criterion="distance": the threshold is compared with something else.
+# Compares the threshold with the inconsistency of a merger, as fcluster does by default, but the distance is asked for (criterion="distance").
 # says: this
 def families(table, threshold):
     from scipy.cluster.hierarchy import fcluster, linkage
@@ -1122,7 +1122,7 @@ def families(table, threshold):
 
 
 # %% square_distances_for_linkage loses 6.5
-# Gives linkage the square matrix of distances, whose rows it takes for positions: it needs the condensed form.
+# Takes the rows of the square matrix of distances for positions, as linkage does, but the distances themselves are asked for (condensed form).
 # says: this
 def families(table, threshold):
     from scipy.cluster.hierarchy import fcluster, linkage
@@ -1139,7 +1139,7 @@ def families(table, threshold):
 
 
 # %% x_repeated_and_tiled_the_other_way loses 6.3
-# Exchanges repeat and tile for x, so that some starts come twice and others never.
+# Puts the values of x in a wrong order, so that some starts come twice and others never.
 # says: this
 def grid(places, headings):
     x = np.linspace(150, 250, places)
@@ -1155,7 +1155,7 @@ def grid(places, headings):
 
 
 # %% forgets_what_it_should_keep loses 6.1
-# Takes the forget gate for the share that is forgotten: 1 minus it multiplies the old cells.
+# Multiplies the old cells by 1 minus the forget gate instead of the forget gate.
 # says: this
 # -     cells = memory[0] * logistic(forget + 1) + np.tanh(candidate) * logistic(enter)
 # +     cells = memory[0] * (1 - logistic(forget + 1)) + np.tanh(candidate) * logistic(enter)

@@ -2,14 +2,14 @@
 
 
 # %% angle_mirrored loses 7.1
-# Cosine and sine are taken for each other.
+# Gives np.arctan2(cosine, sine) as the angle instead of np.arctan2(sine, cosine).
 # says: Cosine and sine are exchanged
 # -     angle = np.arctan2(observation[..., 1], observation[..., 0])
 # +     angle = np.arctan2(observation[..., 0], observation[..., 1])
 
 
 # %% angle_of_cosine loses 7.1
-# Computes the angle from its cosine alone, so that it is never negative.
+# Gives an angle between 0 and pi, as np.arccos(cosine) does, but it should be negative where the sine is negative.
 # says: Only the sign
 def to_state(observation):
     observation = np.asarray(observation, dtype=float)
@@ -17,7 +17,7 @@ def to_state(observation):
 
 
 # %% recording_goes_on loses 7.2
-# Goes on after the end of the episode.
+# Goes on after the environment has ended the episode (truncated after 200 steps), but the recording should end there.
 def record(controller, seed, steps):
     env = gymnasium.make("Pendulum-v1")
     observations = [env.reset(seed=seed)[0]]
@@ -27,7 +27,7 @@ def record(controller, seed, steps):
 
 
 # %% recording_unseeded loses 7.2
-# The seed is not used.
+# Starts from a state that does not come from the seed, but env.reset(seed=seed) should choose it.
 # says: do not come from the seed
 _record = record
 
@@ -37,7 +37,7 @@ def record(controller, seed, steps):
 
 
 # %% recording_without_start loses 7.2
-# The recording leaves out the state after the reset.
+# Leaves out the state after the reset, but the recording should begin with it.
 # says: one too few|one is missing
 _record = record
 
@@ -47,15 +47,15 @@ def record(controller, seed, steps):
 
 
 # %% arrows_leap loses 7.3
-# Arrows through the lowest point leap across the whole picture.
+# Gives the plain difference of the angles even where it is beyond -pi or pi, but the short way around is asked for.
 # says: whole turns of 2 pi
 def arrows(before, after):
     return np.hstack([before, after - before])
 
 
 # %% arrows_to_ends loses 7.3
-# Gives where the arrows end instead of how far they go.
-# says: Where the arrows end is returned
+# Gives where each arrow ends (before plus change) instead of the change.
+# says: hold where the arrows end
 _arrows = arrows
 
 
@@ -64,7 +64,7 @@ def arrows(before, after):
 
 
 # %% states_changed loses 7.3
-# Computes the change in the array of the states, which the next arrow begins with.
+# Changes an array that it is given, but the arrays given should stay as they are.
 def arrows(before, after):
     kept = before.copy()
     after -= before
@@ -73,7 +73,7 @@ def arrows(before, after):
 
 
 # %% controller_sees_the_past loses 7.4
-# The controller is given the observation of the grid state before.
+# Gives the controller the observation that the last reset or step returned instead of that of the given state.
 def next_states(controller, states):
     env = gymnasium.make("Pendulum-v1")
     observation, _ = env.reset(seed=0)
@@ -86,7 +86,7 @@ def next_states(controller, states):
 
 
 # %% grid_without_end loses 7.4
-# The grid leaves out its right and upper end.
+# Leaves out the upper ends pi and 8, but the angles and the velocities should include both of their ends.
 # says: leaves out its upper ends
 def grid(nangles, nvelocities):
     angles = np.linspace(-np.pi, np.pi, nangles, endpoint=False)
@@ -95,7 +95,7 @@ def grid(nangles, nvelocities):
 
 
 # %% state_set_on_wrapper loses 7.4
-# Sets the state on the outermost wrapper, where nobody reads it.
+# Lets the pendulum go on from where it is, but each step should start from the given state (see env.unwrapped.state).
 # -     env.reset()
 # +     observation, _ = env.reset()
 # -         env.unwrapped.state = np.array([angle, velocity])
@@ -103,7 +103,7 @@ def grid(nangles, nvelocities):
 
 
 # %% keeps_best_so_far loses 7.5
-# Keeps the best candidate so far instead of that of the generation.
+# Keeps the best candidate of all generations so far, but the best one of the kept generation alone is asked for.
 # says: the best candidate so far
 def evolve(algorithm, evaluate, generations, every):
     kept, parameters, history, record_fitness = [], [], [], -np.inf
@@ -121,7 +121,7 @@ def evolve(algorithm, evaluate, generations, every):
 
 
 # %% last_generation_missing loses 7.5
-# Keeps every n-th generation, but not the last one.
+# Leaves out the last generation if its number is not a multiple of `every`, but the last one should always be kept.
 # says: The last one is missing
 _evolve = evolve
 
@@ -134,14 +134,14 @@ def evolve(algorithm, evaluate, generations, every):
 
 
 # %% stages_not_copied loses 7.5
-# Keeps views of an array that the algorithm uses again.
+# Returns rows of the last generation's candidates for all stages: the algorithm uses its array again, so a copy should be kept (.copy()).
 # says: keep a copy of a candidate \(.copy\(\)\)
 # -             parameters.append(candidates[best].copy())
 # +             parameters.append(candidates[best])
 
 
 # %% middle_stage_is_late loses 7.6
-# Takes the stage in the middle of the run, when the pendulum is up already.
+# Takes the best of generation 300 as the middle stage, but one with a mean return at least 100 above the first one's and 100 below the last one's is asked for.
 def three_stages(seed):
     robot = Robot("Pendulum-v1")
 
@@ -153,7 +153,7 @@ def three_stages(seed):
 
 
 # %% written_down loses 7.6
-# Stages that were evolved elsewhere and written down, each seed with a little noise.
+# Returns fixed parameters with a little noise from the seed, but the stages should be evolved anew from each seed.
 MIDDLE = """
     2 5 -5 5 2 4 1 -5 19 -4 -4 1 9 0 -11 7 7 1 -6 2 -4 -5 11 -4 8 -2 10 3 5 -2 1 2 -1 -2 10 -20
     -12 -6 -11 0 12 -1 -10 0 18 0 2 8 -1 25 5"""
@@ -169,7 +169,7 @@ def three_stages(seed):
 
 
 # %% arrows_end_at_their_states loses 7.7
-# Puts the head of each arrow where its beginning belongs.
+# Draws each arrow with its head in its own state, but it should begin there and end in the next state.
 def draw_portraits(file, titles, fields, paths):
     from matplotlib.figure import Figure
 
@@ -184,7 +184,7 @@ def draw_portraits(file, titles, fields, paths):
 
 
 # %% arrows_point_backwards loses 7.7
-# Draws each arrow from the next state to the one before.
+# Draws each arrow from the next state back to its own state, but its head should be in the next state.
 _draw_portraits = draw_portraits
 
 
@@ -194,7 +194,7 @@ def draw_portraits(file, titles, fields, paths):
 
 
 # %% arrows_without_scale loses 7.7
-# Lets matplotlib choose how long the arrows are.
+# Lets matplotlib choose the lengths and directions of the arrows, but each should end exactly in the next state.
 def draw_portraits(file, titles, fields, paths):
     from matplotlib.figure import Figure
 
@@ -208,7 +208,7 @@ def draw_portraits(file, titles, fields, paths):
 
 
 # %% axes_follow_the_data loses 7.7
-# The axes span what the arrows need.
+# Lets the axes span what the arrows need instead of exactly -pi to pi and -8 to 8.
 def draw_portraits(file, titles, fields, paths):
     from matplotlib.figure import Figure
 
@@ -222,7 +222,7 @@ def draw_portraits(file, titles, fields, paths):
 
 
 # %% lines_without_heads loses 7.7
-# Draws lines, which do not tell forwards from backwards.
+# Draws lines without heads, but each arrow should have its head at the next state.
 def draw_portraits(file, titles, fields, paths):
     from matplotlib.figure import Figure
 
@@ -237,7 +237,7 @@ def draw_portraits(file, titles, fields, paths):
 
 
 # %% one_panel_for_all loses 7.7
-# Draws all portraits into one panel.
+# Draws all portraits into one panel instead of one panel for each.
 def draw_portraits(file, titles, fields, paths):
     from matplotlib.figure import Figure
 
@@ -251,7 +251,7 @@ def draw_portraits(file, titles, fields, paths):
 
 
 # %% paths_not_drawn loses 7.7
-# Draws the field only.
+# Leaves out the arrows of paths, but they should be drawn above those of fields.
 _draw_portraits = draw_portraits
 
 
@@ -260,7 +260,7 @@ def draw_portraits(file, titles, fields, paths):
 
 
 # %% controller_asked_twice loses 7.2
-# Asks the controller twice in each step.
+# Asks the controller twice in each step, but it should be asked once.
 # says: asked once in each step
 # -         observation, _, terminated, truncated, _ = env.step(controller(observation))
 # +         if np.all(np.isfinite(controller(observation))):
@@ -268,13 +268,13 @@ def draw_portraits(file, titles, fields, paths):
 
 
 # %% velocities_wrap loses 7.3
-# Lets velocities take the short way around, too.
+# Puts the changes of the velocities between -pi and pi, too, but only angles have a short way around.
 # -     change[:, 0] = (change[:, 0] + np.pi) % (2 * np.pi) - np.pi
 # +     change = (change + np.pi) % (2 * np.pi) - np.pi
 
 
 # %% keeps_what_beats_zero loses 7.5
-# Looks for a fitness above 0, so that of negative ones the first candidate is kept.
+# Keeps the first candidate if no fitness is above 0, but the one with the highest fitness is asked for, even if that is negative.
 # -         best = int(np.argmax(fitness))
 # +         best, highest = 0, 0.0
 # +         for number, value in enumerate(fitness):
@@ -283,14 +283,14 @@ def draw_portraits(file, titles, fields, paths):
 
 
 # %% evaluates_twice loses 7.5
-# Evaluates the candidates a second time for the history.
+# Calls evaluate twice in each generation, but one call is asked for.
 # says: once for each
 # -         history.append(float(fitness[best]))
 # +         history.append(float(np.max(evaluate(candidates, generation))))
 
 
 # %% middle_is_mixed loses 7.6
-# Mixes the middle stage of the first and the last until its return fits.
+# Mixes the middle stage with the last one, but candidates should be returned as they were evaluated.
 # says: was never evaluated
 _chosen = three_stages
 
@@ -301,7 +301,7 @@ def three_stages(seed):
 
 
 # %% one_evolution_for_all_seeds loses 7.6
-# All seeds give the stages of the evolution with seed 1.
+# Returns the stages of seed 1 for every seed, but another seed should give another evolution.
 # says: begins with the same candidates as with another seed
 _chosen = three_stages
 
@@ -311,7 +311,7 @@ def three_stages(seed):
 
 
 # %% sign_of_the_sine loses 7.1
-# Gives arccos the sign of the sine, which is 0 when the pendulum hangs straight down.
+# Gives the angle 0 straight down (cosine -1, sine 0), but it should be pi or -pi there.
 # -     angle = np.arctan2(observation[..., 1], observation[..., 0])
 # -     return np.stack([angle, observation[..., 2]], axis=-1)
 # +     angle = np.arccos(observation[..., 0]) * np.sign(observation[..., 1])
@@ -319,7 +319,7 @@ def three_stages(seed):
 
 
 # %% record_without_seed_zero loses 7.2
-# Takes the seed 0 for no seed at all.
+# Resets the environment without a seed if the seed is 0, but 0 is a seed like any other.
 # -     observation, _ = env.reset(seed=seed)
 # -     observations = [observation]
 # +     observation, _ = env.reset(seed=seed or None)
@@ -327,32 +327,32 @@ def three_stages(seed):
 
 
 # %% wraps_above_only loses 7.3
-# Takes the short way only for changes above pi, not for those below -pi (as np.fmod does).
+# Leaves changes of the angle below -pi as they are (as np.fmod would, unlike %), but they should take the short way around, as those above pi do.
 # -     change[:, 0] = (change[:, 0] + np.pi) % (2 * np.pi) - np.pi
 # +     change[:, 0] = np.where(change[:, 0] > np.pi, change[:, 0] - 2 * np.pi, change[:, 0])
 
 
 # %% subtracts_in_place loses 7.3
-# Subtracts in the array of the states after.
+# Writes the changes into the array `after`, but the arrays given should stay as they are.
 # -     change = after - before
 # +     change = after
 # +     change -= before
 
 
 # %% history_so_far loses 7.5
-# The history holds the best fitness so far.
+# Puts the highest fitness so far into the history, but the highest one of each generation alone is asked for.
 # -         history.append(float(fitness[best]))
 # +         history.append(max([float(fitness[best]), *history]))
 
 
 # %% square_grids_only loses 7.4
-# Lays out as many velocities as angles.
+# Spaces the velocities as if there were nangles of them, but nvelocities from -8 to 8 are asked for.
 # -     velocities = np.linspace(-8, 8, nvelocities)
 # +     velocities = np.linspace(-8, 8, nangles)[:nvelocities]
 
 
 # %% controller_asked_once loses 7.4
-# Asks the controller once, and uses its action for all states.
+# Uses the action for the first state in all states, but the controller should choose one in each state.
 # -     following = []
 # -     for angle, velocity in states:
 # +     following, action = [], None
@@ -363,7 +363,7 @@ def three_stages(seed):
 
 
 # %% three_observations_are_one loses 7.1
-# Takes three observations for a single one.
+# Treats three observations, shape (3, 3), as a single one, but angle and velocity of each are asked for.
 # -     observation = np.asarray(observation, dtype=float)
 # -     angle = np.arctan2(observation[..., 1], observation[..., 0])
 # -     return np.stack([angle, observation[..., 2]], axis=-1)
@@ -374,20 +374,20 @@ def three_stages(seed):
 
 
 # %% kept_with_the_middle loses 7.6
-# The middle stage is the one in the middle of the generations, whatever its return.
+# Takes the middle one of the stages kept, whatever its return, but that should be at least 100 above the first one's and 100 below the last one's.
 # -     middle = int(np.argmin(np.abs(fitness[: best + 1] - halfway)))
 # +     middle = (best + 1) // 2
 
 
 # %% seed_of_the_algorithm_fixed loses 7.6
-# The algorithm has seed 1 always.
-# says: must follow from the seed
+# Gives the algorithm seed 1 for every seed, so that all evolutions begin alike, but everything random should follow from the seed.
+# says: should follow from the seed
 # -     parameters = evolve(openai_es(robot, seed), evaluate, generations=600, every=5)["parameters"]
 # +     parameters = evolve(openai_es(robot, 1), evaluate, generations=600, every=5)["parameters"]
 
 
 # %% three_runs loses 7.6
-# Takes the stages from three evolutions with other seeds.
+# Takes the first stage from another evolution, with seed + 1, but all three should come from one evolution.
 # says: evaluated first
 # -     return parameters[[0, middle, best]]
 # +     other = evolve(openai_es(robot, seed + 1), evaluate, generations=1, every=5)["parameters"]
@@ -395,15 +395,15 @@ def three_stages(seed):
 
 
 # %% second_generation loses 7.6
-# The first stage is the best of generation 5.
+# Takes the best of generation 5 as the first stage, but the best of generation 0 is asked for.
 # says: evaluated first
 # -     return parameters[[0, middle, best]]
 # +     return parameters[[1, max(middle, 2), best]]
 
 
 # %% path_below_the_field loses 7.7
-# Draws the paths first, so that the field covers them.
-# says: to lie above the field
+# Draws the field over the paths, but the paths should lie above the field.
+# says: should lie above the field
 # -         axes.quiver(*field.T, color="#a8b4c0", width=0.0035, **exact)
 # -         axes.quiver(*path.T, color="#d55e00", width=0.005, **exact)
 # +         axes.quiver(*path.T, color="#d55e00", width=0.005, **exact)
@@ -411,34 +411,34 @@ def three_stages(seed):
 
 
 # %% first_field_everywhere loses 7.7
-# Draws the first field into all panels.
+# Draws fields[0] into every panel instead of fields[i] into panel i.
 # -         axes.quiver(*field.T, color="#a8b4c0", width=0.0035, **exact)
 # +         axes.quiver(*fields[0].T, color="#a8b4c0", width=0.0035, **exact)
 
 
 # %% wider_axes loses 7.7
-# The axes leave a margin.
+# Lets the axes go beyond -pi to pi and -8 to 8, but each panel should show exactly these.
 # says: exactly -pi
 # -         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
 # +         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-3.5, 3.5), ylim=(-9, 9))
 
 
 # %% titles_forgotten loses 7.7
-# The titles are never written.
+# Leaves out the titles, but titles[i] should stand above panel i.
 # says: above panel
 # -         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
 # +         axes.set(xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
 
 
 # %% first_title_everywhere loses 7.7
-# Each panel has the first title.
+# Writes titles[0] above every panel instead of titles[i] above panel i.
 # says: above panel
 # -         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
 # +         axes.set(title=titles[0], xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
 
 
 # %% first_observation_decides loses 7.2
-# The controller is asked with the first observation in every step.
+# Gives the controller the first observation in every step instead of the latest one.
 # says: this
 # -     observations = [observation]
 # -     for _ in range(steps):
@@ -449,14 +449,14 @@ def three_stages(seed):
 
 
 # %% velocities_first loses 7.4
-# All velocities of an angle come first, but all angles of a velocity are asked for.
+# Puts all velocities with the first angle first, then all with the second, but all angles with the first velocity should come first.
 # says: this
 # -     return np.stack([np.tile(angles, nvelocities), np.repeat(velocities, nangles)], axis=1)
 # +     return np.stack([np.repeat(angles, nvelocities), np.tile(velocities, nangles)], axis=1)
 
 
 # %% observation_of_the_step_before loses 7.4
-# The controller sees what the environment observed last, not the state it was put into.
+# Gives the controller what the environment observed before the state was set instead of the observation of that state.
 # says: this
 # -     env.reset()
 # -     following = []
@@ -469,7 +469,7 @@ def three_stages(seed):
 
 
 # %% set_to_the_first_state_only loses 7.4
-# The pendulum is put into the first state only, and then goes on from there.
+# Starts only the first step from a given state and goes on from there, but each step should start from its own given state.
 # says: this
 # -         env.unwrapped.state = np.array([angle, velocity])
 # +         if not following:
@@ -477,7 +477,7 @@ def three_stages(seed):
 
 
 # %% last_state_missing loses 7.2
-# The recording ends with the state before the last step, not with the one after it.
+# Leaves out the state after the last step, but the recording should end with it.
 # says: this
 # -         observation, _, terminated, truncated, _ = env.step(controller(observation))
 # -         observations.append(observation)
@@ -492,14 +492,14 @@ def three_stages(seed):
 
 
 # %% velocities_up_to_one loses 7.4
-# The velocities go from -1 to 1 instead of from -8 to 8.
+# Lets the velocities go from -1 to 1 instead of from -8 to 8.
 # says: this
 # -     velocities = np.linspace(-8, 8, nvelocities)
 # +     velocities = np.linspace(-1, 1, nvelocities)
 
 
 # %% state_of_the_wrapper loses 7.4
-# The state is set on the wrapper; the environment below it starts from the reset.
+# Starts each step from the state of a reset instead of the given state (see env.unwrapped.state).
 # says: this
 # -     env.reset()
 # -     following = []
@@ -510,35 +510,35 @@ def three_stages(seed):
 
 
 # %% tells_minus_the_fitness loses 7.5
-# Tells the algorithm minus the fitness, as if it were a loss.
+# Tells the algorithm minus the fitness, but the fitness itself is asked for.
 # says: told minus the fitness
 # -         algorithm.tell(fitness)
 # +         algorithm.tell(-fitness)
 
 
 # %% generations_from_one loses 7.5
-# Counts the generations from 1 when it decides which to keep.
+# Keeps the generations every - 1, 2 * every - 1, ... instead of 0, every, 2 * every, ...
 # says: counted from 1
 # -         if generation % every == 0 or generation == generations - 1:
 # +         if (generation + 1) % every == 0 or generation == generations - 1:
 
 
 # %% angles_without_end loses 7.4
-# The angles leave out their upper end.
+# Leaves out the upper end pi of the angles, but both ends should be included.
 # says: The angles leave out
 # -     angles = np.linspace(-np.pi, np.pi, nangles)
 # +     angles = np.linspace(-np.pi, np.pi, nangles, endpoint=False)
 
 
 # %% stages_in_reverse loses 7.6
-# Returns the last stage first.
+# Returns the last stage first and the first one last, but they should be in the order of the evolution.
 # says: order of the evolution
 # -     return parameters[[0, middle, best]]
 # +     return parameters[[best, middle, 0]]
 
 
 # %% observation_of_another_reset loses 7.4
-# The controller sees what the environment observed last, at first that of a reset without a seed.
+# Gives the controller the observation of the last step (at first that of the reset) instead of that of the given state.
 # says: what the step before led to
 # -     env.reset()
 # -     following = []
@@ -550,7 +550,7 @@ def three_stages(seed):
 
 
 # %% columns_for_rows loses 7.1
-# Takes the rows of many observations for cosines, sines and velocities.
+# Takes the rows of an array of shape (n, 3) for cosines, sines and velocities, but these are its columns.
 # says: unpacked along its first axis
 # -     observation = np.asarray(observation, dtype=float)
 # -     angle = np.arctan2(observation[..., 1], observation[..., 0])
@@ -560,7 +560,7 @@ def three_stages(seed):
 
 
 # %% next_states_for_the_changes loses 7.7
-# Gives quiver the next states where it wants the changes.
+# Draws each arrow as long as the numbers of the next state, but it should be as long as its change.
 # says: as long as the numbers of the next state
 # -         axes.quiver(*field.T, color="#a8b4c0", width=0.0035, **exact)
 # -         axes.quiver(*path.T, color="#d55e00", width=0.005, **exact)
@@ -570,28 +570,28 @@ def three_stages(seed):
 
 
 # %% velocities_downwards loses 7.7
-# The axis of the velocities points down.
-# says: the velocities are to grow upwards
+# Lets the velocities grow downwards, but they should grow upwards.
+# says: velocities should grow upwards
 # -         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
 # +         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(8, -8))
 
 
 # %% middle_of_the_arrow_in_its_state loses 7.7
-# Puts the middle of each arrow into its state.
+# Puts the middle of each arrow into its state, but it should begin there.
 # says: Their middle is in their state
 # -     exact = {"angles": "xy", "scale_units": "xy", "scale": 1}
 # +     exact = {"angles": "xy", "scale_units": "xy", "scale": 1, "pivot": "mid"}
 
 
 # %% length_of_its_own loses 7.7
-# Lets matplotlib choose the length of the arrows.
-# says: Each arrow is as long as its change
+# Lets matplotlib choose the lengths of the arrows, but each should end exactly in the next state.
+# says: Each arrow should be as long as its change
 # -     exact = {"angles": "xy", "scale_units": "xy", "scale": 1}
 # +     exact = {"angles": "xy"}
 
 
 # %% angles_upwards loses 7.7
-# Exchanges angles and velocities.
+# Draws the angles upwards and the velocities from left to right instead of the other way round.
 # says: Angles and velocities are exchanged
 # -         axes.quiver(*field.T, color="#a8b4c0", width=0.0035, **exact)
 # -         axes.quiver(*path.T, color="#d55e00", width=0.005, **exact)
@@ -602,35 +602,35 @@ def three_stages(seed):
 
 
 # %% turns_from_zero loses 7.3
-# Puts the changes of the angle between 0 and 2 pi.
+# Puts the changes of the angle between 0 and 2 pi instead of between -pi and pi.
 # says: lie between 0 and 2 pi
 # -     change[:, 0] = (change[:, 0] + np.pi) % (2 * np.pi) - np.pi
 # +     change[:, 0] = change[:, 0] % (2 * np.pi)
 
 
 # %% half_turns loses 7.3
-# Takes pi for a whole turn.
+# Puts the changes of the angle between -pi / 2 and pi / 2, as if a whole turn were pi, but it is 2 pi.
 # says: a whole turn is 2 pi
 # -     change[:, 0] = (change[:, 0] + np.pi) % (2 * np.pi) - np.pi
 # +     change[:, 0] = (change[:, 0] + np.pi / 2) % np.pi - np.pi / 2
 
 
 # %% changes_cut_off loses 7.3
-# Cuts off changes beyond -pi and pi.
+# Cuts off the changes of the angle at -pi and pi instead of taking the short way around.
 # says: are cut off there
 # -     change[:, 0] = (change[:, 0] + np.pi) % (2 * np.pi) - np.pi
 # +     change[:, 0] = np.clip(change[:, 0], -np.pi, np.pi)
 
 
 # %% angles_from_zero loses 7.4
-# The angles of the grid go from 0 to 2 pi.
+# Lets the angles of the grid go from 0 to 2 pi instead of from -pi to pi.
 # says: The angles go from 0 to 2 pi
 # -     angles = np.linspace(-np.pi, np.pi, nangles)
 # +     angles = np.linspace(0, 2 * np.pi, nangles)
 
 
 # %% rows_after_the_end loses 7.2
-# Rows of zeros are left over where the episode ends before the steps are used up.
+# Adds rows of zeros if the episode ends before `steps` steps, but only the states of the episode are asked for.
 # says: the environment ends the episode after
 _record_7 = record
 
@@ -640,14 +640,8 @@ def record(controller, seed, steps):
     return np.concatenate([found, np.zeros((steps + 1 - len(found), 2))])
 
 
-# %% arccos_times_the_sign loses 7.1
-# The angle is the arccos of the cosine times the sign of the sine, which is 0 straight down.
-# -     angle = np.arctan2(observation[..., 1], observation[..., 0])
-# +     angle = np.arccos(np.clip(observation[..., 0], -1, 1)) * np.sign(observation[..., 1])
-
-
 # %% the_old_velocity_moves_the_angle loses 7.4
-# The angle moves with the velocity before the step, the pendulum's with the one after it.
+# Moves the angle with the velocity before the step, but Pendulum-v1 moves it with the velocity after the step.
 # says: this
 _next_states_7 = next_states
 
@@ -660,7 +654,7 @@ def next_states(controller, states):
 
 
 # %% amount_of_the_short_way loses 7.3
-# A change beyond half a turn becomes 2 pi minus its amount, and loses its sign.
+# Replaces a change of the angle beyond -pi or pi by 2 pi minus its amount, but for one above pi the short way around is negative.
 # says: becomes 2 pi minus its amount
 # -     change[:, 0] = (change[:, 0] + np.pi) % (2 * np.pi) - np.pi
 # +     amount = np.abs(change[:, 0])
@@ -668,21 +662,21 @@ def next_states(controller, states):
 
 
 # %% remainder_of_the_other_sign loses 7.3
-# Takes the short way only for changes below -pi, not for those above pi.
+# Leaves changes of the angle above pi as they are, but they should take the short way around, as those below -pi do.
 # says: this
 # -     change[:, 0] = (change[:, 0] + np.pi) % (2 * np.pi) - np.pi
 # +     change[:, 0] = np.fmod(change[:, 0] - np.pi, 2 * np.pi) + np.pi
 
 
 # %% arrows_begin_in_the_next_state loses 7.3
-# The arrows begin in the states after, not in those before.
+# Begins the arrows in the states `after` instead of the states `before`.
 # says: this
 # -     return np.hstack([before, change])
 # +     return np.hstack([after, change])
 
 
 # %% angles_cut_off loses 7.4
-# Angles beyond pi and -pi are cut off there, but a turn goes on at the other side.
+# Cuts off the angles at -pi and pi, but 2 pi should be subtracted from an angle above pi, and added to one below -pi.
 # says: this
 # -         observation, *_ = env.step(controller(seen))
 # -         following.append(observation)
@@ -693,7 +687,7 @@ def next_states(controller, states):
 
 
 # %% angles_of_the_environment loses 7.4
-# Returns the angles as the environment holds them: they are not brought back to [-pi, pi].
+# Returns some angles below -pi or above pi, as env.unwrapped.state holds them, but all should be in [-pi, pi].
 # says: this
 # -         observation, *_ = env.step(controller(seen))
 # -         following.append(observation)
@@ -704,7 +698,7 @@ def next_states(controller, states):
 
 
 # %% velocities_without_limit loses 7.4
-# The velocities are not limited to [-8, 8], as those of Pendulum-v1 are.
+# Lets the velocities go beyond -8 and 8, but Pendulum-v1 limits them to [-8, 8].
 # says: this
 def next_states(controller, states):
     following = []
@@ -717,42 +711,42 @@ def next_states(controller, states):
 
 
 # %% resets_with_the_next_seed loses 7.2
-# The environment is reset with seed + 1 instead of the seed.
+# Resets the environment with seed + 1 instead of seed.
 # says: this
 # -     observation, _ = env.reset(seed=seed)
 # +     observation, _ = env.reset(seed=seed + 1)
 
 
 # %% angle_of_the_sine_alone loses 7.1
-# The angle is arcsin of the sine, which knows half of the circle only.
+# Gives np.arcsin(sine) as the angle, but this is always between -pi / 2 and pi / 2: the cosine should count, too.
 # says: arcsin\(sine\)
 # -     angle = np.arctan2(observation[..., 1], observation[..., 0])
 # +     angle = np.arcsin(observation[..., 1])
 
 
 # %% panels_in_a_column loses 7.7
-# The panels stand one below the other.
+# Puts the panels one below the other instead of side by side.
 # says: one below the other
 # -     panels = figure.subplots(1, len(titles), squeeze=False, sharey=True)[0]
 # +     panels = figure.subplots(len(titles), 1, squeeze=False, sharey=True)[:, 0]
 
 
 # %% first_arrow_of_a_path_only loses 7.7
-# Draws only the first arrow of each path.
+# Draws only the first arrow of each path, but all of them are asked for.
 # says: nothing of them is seen
 # -         axes.quiver(*path.T, color="#d55e00", width=0.005, **exact)
 # +         axes.quiver(*path[:1].T, color="#d55e00", width=0.005, **exact)
 
 
 # %% arrows_five_times_as_long loses 7.7
-# The arrows are five times as long as their changes.
+# Draws each arrow five times as long as its change, but it should end exactly in the next state.
 # says: 5 times as long as their change
 # -     exact = {"angles": "xy", "scale_units": "xy", "scale": 1}
 # +     exact = {"angles": "xy", "scale_units": "xy", "scale": 0.2}
 
 
 # %% ends_with_the_episode loses 7.4
-# Stops when the environment says that the time is up, and leaves out the states that are left.
+# Stops after 200 states, when the environment ends the episode, but the next state of each given state is asked for.
 # says: this
 # -         observation, *_ = env.step(controller(seen))
 # -         following.append(observation)
@@ -763,7 +757,7 @@ def next_states(controller, states):
 
 
 # %% the_best_of_all_since loses 7.5
-# Keeps the best candidate of all generations since the last one kept, not that of the generation itself.
+# Keeps the best candidate since the last generation kept, but the best one of the kept generation alone is asked for.
 # says: this
 def evolve(algorithm, evaluate, generations, every):
     result = {"generations": [], "parameters": [], "history": []}
@@ -785,7 +779,7 @@ def evolve(algorithm, evaluate, generations, every):
 
 
 # %% limits_of_the_last_panel loses 7.7
-# Only the last panel gets the limits of its x axis: the loop is over when they are set.
+# Sets the limits of the angles in the last panel only, but each panel should show exactly -pi to pi.
 # says: whatever is drawn
 # -         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
 # +         axes.set(title=title, xlabel="angle (0 is upright)", ylim=(-8, 8))
@@ -795,7 +789,7 @@ def evolve(algorithm, evaluate, generations, every):
 
 
 # %% gravity_of_9_81 loses 7.2
-# Makes the pendulum with g=9.81: its own default is 10.
+# Uses the gravity 9.81 instead of 10, the default of Pendulum-v1.
 # says: this
 # -     env = gymnasium.make("Pendulum-v1")
 # -     observation, _ = env.reset(seed=seed)
@@ -804,7 +798,7 @@ def evolve(algorithm, evaluate, generations, every):
 
 
 # %% stages_by_linspace loses 7.5
-# Spreads the kept generations evenly instead of keeping 0, every, 2 every, ...
+# Spreads the kept generations evenly instead of keeping 0, every, 2 * every, ... and the last one.
 # says: this
 import numpy as np
 
@@ -830,7 +824,7 @@ def evolve(algorithm, evaluate, generations, every):
 
 
 # %% motor_without_limit loses 7.4
-# The motor gives as much as the controller asks for, not 2 at most.
+# Lets the motor give more than 2 units of torque, but Pendulum-v1 limits it to [-2, 2].
 # says: this
 def next_states(controller, states):
     following = []
@@ -844,7 +838,7 @@ def next_states(controller, states):
 
 
 # %% state_at_the_end_lost loses 7.2
-# The loop ends before the state after the last step of an episode is appended.
+# Leaves out the state after the step that ends the episode, but it belongs to the recording.
 # says: this
 # -         observations.append(observation)
 # -         if terminated or truncated:

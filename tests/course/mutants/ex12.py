@@ -1088,3 +1088,10 @@ def cross_entropy(scores, actions):
 # +     optimiser.zero_grad()
 # +     for _ in range(updates):
 # +         value = loss(network(inputs), wanted)
+# %% logarithm_of_softmax loses 12.5
+# Takes the logarithm of probabilities that are rounded to 0 where scores are large, so that the loss is infinite; ln p(a) should be computed from the scores.
+# says: this
+# -     chosen = scores[torch.arange(len(actions)), actions]
+# -     return (torch.logsumexp(scores, dim=1) - chosen).mean()
+# +     chosen = torch.softmax(scores, dim=1)[torch.arange(len(actions)), actions]
+# +     return -torch.log(chosen).mean()

@@ -1243,6 +1243,8 @@ def red_queen(matrix):
         own.append(np.mean([matrix[g, k] - matrix[0, k] for k in range(g + 1)]))
         others.append(np.mean([matrix[k, g] - matrix[k, 0] for k in range(g + 1)]))
     return {"change": np.array(change), "own": np.array(own), "others": np.array(others)}
+
+
 # %% read_by_generations_then_transposed loses 15.2
 # Reads the list of results in the order g, h, i, j instead of g, i, h, j: the shape is right, but numbers belong to other pairs.
 # says: this
