@@ -209,8 +209,8 @@ def on_stage(module, urdf, call, scenes):
         for seed in scenes:
             made = env.reset(seed=seed) if seed != "no seed" else env.reset()
             if not isinstance(made, (tuple, list)) or len(made) != 2:
-                kind = "None" if made is None else f"a {type(made).__name__}"
-                return f"returned {kind}: two things are asked for, the observation and {{}}."
+                kind = "None" if made is None else f"a value of type {type(made).__name__}"
+                return f"returned {kind}, but two things are asked for: the observation and {{}}."
             observation, info = made
             kind = str(getattr(observation, "dtype", type(observation).__name__))
             report = [observation, kind, env.speed, len(info) if isinstance(info, dict) else -1]
@@ -218,7 +218,7 @@ def on_stage(module, urdf, call, scenes):
             report.append(bodies)
             if isinstance(env.robot, int) and not pybullet.getNumJoints(env.robot, env.client):
                 which = "the plane" if 0 <= env.robot < bodies else "not in this simulation"
-                return f"sets self.robot to {env.robot}, which is {which}: the robot is another."
+                return f"sets self.robot to {env.robot}, which is {which}, but should be the robot."
             for _ in range(30):
                 pybullet.stepSimulation(env.client)
             there = pybullet.getBasePositionAndOrientation(env.robot, env.client)[0]
@@ -376,8 +376,8 @@ def links_and_their_masses(student: Student):
             f"{', '.join(expected['links'])}, in this order.",
         )
         for name, value in expected["links"].items():
-            mistakes = {"It is rounded: return it as it is.": round(value, 1),
-                        "It is cut to a whole number.": int(value)}  # fmt: skip
+            mistakes = {"The mass should be that of the file, and not rounded.": round(value, 1),
+                        "The mass should not be cut to a whole number.": int(value)}  # fmt: skip
             expect_close(f"{said}: the mass of {name}", links[name], value, mistakes=mistakes)
         mistakes = mistaken_mass(list(expected["links"].values()))
         expect_close(f"{said}: mass", mass, expected["mass"], mistakes=mistakes)
@@ -389,7 +389,8 @@ def joints_and_what_they_join(student: Student):
         said, (_, joints, *_), expected = described(student, index)
         expect(
             isinstance(joints, list) and len(joints) == len(expected["joints"]),
-            f"{said}: joints is {show(joints)}, but a list of {len(expected['joints'])} is needed.",
+            f"{said}: joints is {show(joints)}, but should be a list of {len(expected['joints'])} "
+            "dicts.",
         )
         for i, (joint, wanted) in enumerate(zip(joints, expected["joints"], strict=True)):
             keys = ("name", "type", "parent", "child")
@@ -403,9 +404,7 @@ def joints_and_what_they_join(student: Student):
             mistakes = {}
             defaults = ([0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0])
             if wanted["default"] and any(close(found[-1], made, 1e-9) for made in defaults):
-                text = (
-                    "The file gives this joint no axis: without one it turns around x, (1, 0, 0)."
-                )
+                text = "The file gives this joint no axis, so it turns around x, [1, 0, 0]."
                 mistakes[text] = found[-1]
             said_of = f"{said}: the axis of joint {i}"
             expect_close(said_of, found[-1], wanted["axis"], mistakes=mistakes)
@@ -425,18 +424,21 @@ spaces = exercise.task("10.2", "The spaces", packages=())
 
 def expect_space(student: Student, which: int, name: str, high: list[float]) -> None:
     answer = student.run(spaces_of, said="BalanceBotEnv()")
-    expect(isinstance(answer, list), f"BalanceBotEnv(): a Box is needed, not {show(answer)}.")
+    expect(
+        isinstance(answer, list),
+        f"BalanceBotEnv(): a space is of type {answer}, but both should be of type Box.",
+    )
     got_low, got_high, kind = answer[which]
     for side, got, wanted in (("low", got_low, -np.array(high)), ("high", got_high, high)):
         fits = isinstance(got, np.ndarray) and got.shape == np.shape(wanted)
         exchanged = fits and np.allclose(np.sort(got), np.sort(wanted), rtol=1e-6)
-        why = " The limits are right, but stand at the wrong numbers." if exchanged else ""
+        why = " The limits are right, but in the wrong order." if exchanged else ""
         expect(
             fits and np.allclose(got, wanted, rtol=1e-6),
             f"BalanceBotEnv(): {name}.{side} is {show(got)}, but should be "
             f"{show(np.array(wanted))}.{why}",
         )
-    expect(kind == "float32", f"BalanceBotEnv(): {name} holds {kind}, but float32 is asked for.")
+    expect(kind == "float32", f"BalanceBotEnv(): {name} is of type {kind}, but should be float32.")
 
 
 @spaces.check(4)
@@ -475,8 +477,8 @@ def observes(student: Student):
         )
         mistakes = {}
         for axis, angle, change in zip("yz", others, turning[1:], strict=True):
-            around = f"is that around {axis}, but the body leans around x."
-            mistakes[f"The angle {around}"] = [angle, turning[0], speed]
+            around = f"is that around {axis}, but should be that around x."
+            mistakes[f"The inclination {around}"] = [angle, turning[0], speed]
             mistakes[f"The angular velocity {around}"] = [inclination, change, speed]
         quaternion = bullet.getQuaternionFromEuler([inclination, *others])
         for text, angle in mistaken_inclination(inclination, quaternion).items():
@@ -487,7 +489,10 @@ def observes(student: Student):
                 wrong[i] = float(answered[i])
                 mistakes.setdefault(f"Only the {name} is wrong.", wrong)
         expect_close(said, answer, [inclination, turning[0], speed], 1e-4, mistakes)
-        expect(kind == "float32", f"{said} is of type {kind}, but float32 is asked for.")
+        expect(
+            kind == "float32",
+            f"{said} returned a value of type {kind}, but an array of float32 is asked for.",
+        )
 
 
 # ------------------------------------------------------------------ 10.4
@@ -512,13 +517,17 @@ def begins_at_random(student: Student):
     for said, (observation, kind, *_), inclination in after_resets(student, 20, seeds):
         share = (inclination + 0.3) / 0.6
         others = {
-            "The inclination is in radians, from -0.3 to 0.3, not in degrees.": 34 * share - 17,
-            "The inclination is from -0.3 to 0.3: radians are asked for.":
-            np.radians(34 * share - 17),
-            "The inclination is from -0.3 to 0.3, not from -1 to 1.": 2 * share - 1,
-            "The inclination is from -0.3 to 0.3, not from 0 to 1.": share,
-            "The inclination is from -0.3 to 0.3, not from 0 to 0.3.": 0.3 * share,
-            "The inclination is from -0.3 to 0.3, not from 0 to 0.6.": 0.6 * share,
+            "The inclination is drawn in degrees, from -17 to 17, but should be drawn in radians, "
+            "from -0.3 to 0.3.": 34 * share - 17,
+            "The inclination is drawn from -17 to 17 degrees, but should be drawn from -0.3 to 0.3 "
+            "radians.": np.radians(34 * share - 17),
+            "The inclination is drawn from -1 to 1, but should be drawn from -0.3 to 0.3.":
+            2 * share - 1,
+            "The inclination is drawn from 0 to 1, but should be drawn from -0.3 to 0.3.": share,
+            "The inclination is drawn from 0 to 0.3, but should be drawn from -0.3 to 0.3.":
+            0.3 * share,
+            "The inclination is drawn from 0 to 0.6, but should be drawn from -0.3 to 0.3.":
+            0.6 * share,
             "The inclination has the wrong sign.": -inclination,
             "The first Euler angle is 0, so the body does not lean around x.": 0.0,
         }  # fmt: skip
@@ -528,7 +537,9 @@ def begins_at_random(student: Student):
         }
         wanted = [inclination, 0.0, 0.0]
         cases.append((f"{said}: observation", observation, wanted, mistakes))
-        expect(kind == "float32", f"{said}: the observation is {kind}, but should be float32.")
+        expect(
+            kind == "float32", f"{said}: the observation is of type {kind}, but should be float32."
+        )
     leans = {float(np.ravel(case[1])[0]) for case in cases if close(case[1], case[1], 0)}
     if len(leans) == 1:
         for case in cases:
@@ -537,8 +548,8 @@ def begins_at_random(student: Student):
 
 
 GOES_ON = (
-    "Without a seed, self.np_random goes on from where it is. The inclination is the next number "
-    "that its uniform(-0.3, 0.3) gives, and nothing else is drawn from it."
+    "Without a seed, self.np_random should go on from where it is. The inclination should be the "
+    "next number of its uniform(-0.3, 0.3), and nothing else should be drawn from it."
 )
 
 
@@ -548,14 +559,19 @@ def goes_on_without_seed(student: Student):
     for said, report, inclination in after_resets(student, 22, seeds):
         observation, _, speed, info = report[:4]
         expect_close(
-            f"{said} after another episode: observation",
+            f"{said}{'' if said == f'reset(seed={seeds[0]})' else ' after another episode'}: "
+            "inclination",
             observation[0],
             inclination,
             1e-5,
             why=lambda text="" if said != "reset()" else GOES_ON: text,
         )
-        expect(speed == 0, f"{said} after another episode: self.speed is {show(speed)}, not 0.")
-        expect(info == 0, f"{said}: the info must be an empty dict.")
+        expect(
+            speed == 0,
+            f"{said}{'' if said == f'reset(seed={seeds[0]})' else ' after another episode'}: "
+            f"self.speed is {show(speed)}, but should be 0.",
+        )
+        expect(info == 0, f"{said}: the info should be an empty dict.")
 
 
 @resetting.check(4)
@@ -564,8 +580,8 @@ def makes_the_world(student: Student):
     for said, report, inclination in after_resets(student, 24, seeds):
         expect(
             report[4] == 2,
-            f"{said}: there are {report[4]} bodies in the simulation, but a plane and a robot "
-            "are asked for.",
+            f"{said}: the number of bodies in the simulation is {report[4]}, but should be 2: the "
+            "plane and the robot.",
         )
         with World(inclination) as world:
             for _ in range(30):
@@ -586,11 +602,18 @@ def makes_the_world(student: Student):
         found = [*answer[:2], report[6]]
         cause = why_world(seen, found)
         if abs(begins - inclination) > 1e-4 and np.allclose(found, seen(), atol=2e-3):
-            cause = "This follows from its first inclination: mend that first."
+            cause = (
+                "This follows from the inclination at the start, which is wrong: mend that first."
+            )
         raise Wrong(
-            f"{said}: 30 steps later, without motors, inclination and angular velocity are "
+            f"{said}{'' if said == f'reset(seed={seeds[0]})' else ' after another episode'}: "
+            "30 steps later, without a call of drive, inclination and angular velocity are "
             f"{show(answer[:2])}, but should be {show(np.array(expected[:2]))}. "
-            + (cause or "Is everything in this world as the text says?")
+            + (
+                cause
+                or "The world should be as the text of reset says, and made anew in each reset, so "
+                "that nothing stays from an episode before (such as turning wheels)."
+            )
         )
 
 
@@ -608,7 +631,9 @@ def compare_drives(student: Student, courses: list[tuple[float, list[float]]]) -
         for i, (action, answer) in enumerate(zip(actions, found[-1], strict=True), 1):
             right = min(max(right + min(max(action, -1.0), 1.0), -LIMIT), LIMIT)
             mistakes = mistaken_speed(float(own), action, LIMIT)
-            cases.append((f"{call_of(i, action, speed)}: self.speed", answer[0], right, mistakes))
+            cases.append(
+                (f"{call_of(i, action, speed)}: the target speed", answer[0], right, mistakes)
+            )
             own = answer[0]
     expect_all(cases, 1e-5)
     for (speed, actions), answers in zip(courses, found, strict=True):
@@ -626,8 +651,8 @@ def compare_wheels(speed: float, actions: list[float], answers: list) -> None:
             world.act(float(np.float32(action)))
             expect(
                 answer[3] == np.float32(action),
-                f"{said} changed the caller's array to [{answer[3]:.3f}]: leave the action as it "
-                "is, and work on a copy.",
+                f"{said} changed the caller's array to [{answer[3]:.3f}], but should leave the "
+                "action as it is.",
             )
             turns, wanted = np.array(answer[1:3]), np.array(world.turns())
             if np.allclose(turns, wanted, atol=1e-3):
@@ -640,8 +665,8 @@ def compare_wheels(speed: float, actions: list[float], answers: list) -> None:
                     return other.turns()
 
             raise Wrong(
-                f"{said}: a step later the wheels turn at {show(turns)} rad/s, but should at "
-                f"{show(wanted)}. {why_motors(turned, turns, wanted)}".rstrip()
+                f"{said}: a step later the wheels turn at {show(turns)} rad/s, but should "
+                f"turn at {show(wanted)}. {why_motors(turned, turns, wanted)}".rstrip()
             )
 
 
@@ -702,13 +727,17 @@ def steps_of(student: Student, index: int):
 @stepping.check(4)
 def moves_one_step(student: Student):
     for said, ((observation, *_), info, kinds), world, before in steps_of(student, 40):
-        expect(len(kinds) == 5, f"{said}: {len(kinds)} values came back, but 5 are needed.")
-        expect(info == {}, f"{said}: info must be empty, not {show(info)}.")
+        expect(
+            len(kinds) == 5,
+            f"{said}: the number of returned values is {len(kinds)}, but should be 5.",
+        )
+        expect(info == {}, f"{said}: info is {show(info)}, but should be an empty dict.")
         if world.height() > 0.2:
             mistakes = {
-                "It is from before the simulation's step: observe after it.":
+                "It is the observation before the simulation's step: observe after it.":
                 [*before["seen"][:2], world.speed],
-                "It is from before the action and the step: observe after them.": before["seen"],
+                "It is the observation before the action and the step: observe after them.":
+                before["seen"],
                 "The motors get the new speed only after the simulation's step: drive first.":
                 before["late"],
             }  # fmt: skip
@@ -721,9 +750,9 @@ def rewards(student: Student):
     for said, ((_, reward, *_), _, kinds), world, before in steps_of(student, 41):
         wanted = 1 - 0.05 * abs(world.speed)
         mistakes = mistaken_reward(world.speed, before["seen"][2], before["action"])
-        said_of = f"{said}, with self.speed = {world.speed:.3f}: reward"
+        said_of = f"{said}, after which it should be {world.speed:.3f}: reward"
         cases.append((said_of, reward, wanted, mistakes))
-        expect(kinds[1] != "ndarray", f"{said}: the reward is an array, but a float is needed.")
+        expect(kinds[1] != "ndarray", f"{said}: the reward is an array, but should be a float.")
     expect_all(cases, 1e-5)
 
 
@@ -739,14 +768,14 @@ def of_fallen(student: Student) -> str:
         said.append([fell for _, fell in staged(student, "fallen()", "fallen", [scene])])
     if any(each != said[0] for each in said):
         return (
-            "\n  Of bodies at the same height, fallen() says other things if they lean otherwise: "
-            "the height alone decides."
+            "\n  At the same height, fallen() is not the same for bodies that lean differently, "
+            "but the height alone should decide."
         )
     low = said[0].count(True)
     if low not in (0, 5, 10) and said[0] == [True] * low + [False] * (10 - low):
         return (
-            f"\n  fallen() is True at {heights[low - 1]} m and False at {heights[low]} m, but is "
-            "to change at LOWEST, 0.15 m."
+            f"\n  fallen() is True at {heights[low - 1]} m and False at {heights[low]} m, but "
+            "should change at LOWEST, 0.15 m."
         )
     if low in (0, 10):
         return (
@@ -754,11 +783,13 @@ def of_fallen(student: Student) -> str:
             "put there, before any step of the simulation)."
         )
     if said[0] == [False] * 5 + [True] * 5:
-        return "\n  fallen() is False below LOWEST, and True above: it is the other way round."
+        return (
+            "\n  fallen() is False below LOWEST and True above, but should be the other way round."
+        )
     if said[0] == [True] * 5 + [False] * 5:
         return (
-            "\n  fallen() itself is right about the height. So step returns something else as the "
-            "third value than what fallen() says then, or it moves the robot in another way."
+            "\n  fallen() itself is right up to 0.14 m and from 0.16 m on. It should change at "
+            "0.15 m, and step should return what it says after the simulation's step."
         )
     return ""
 
@@ -767,7 +798,10 @@ def of_fallen(student: Student) -> str:
 def ends_when_fallen(student: Student):
     wrong, early, missed = None, True, False
     for said, (answer, _, kinds), world, before in steps_of(student, 42):
-        expect(len(kinds) == 5, f"{said}: {len(kinds)} values came back, but 5 are needed.")
+        expect(
+            len(kinds) == 5,
+            f"{said}: the number of returned values is {len(kinds)}, but should be 5.",
+        )
         (terminated, truncated), height = answer[2:4], world.height()
         fell = terminated if abs(height - 0.15) <= 1e-3 else height < 0.15
         fallen_before = before["height"] < 0.15 - 1e-3
@@ -775,8 +809,8 @@ def ends_when_fallen(student: Student):
         early &= terminated == fallen_before or abs(before["height"] - 0.15) <= 1e-3
         expect(
             fell or terminated or truncated is not True,
-            f"{said}: truncated is True, but step is to return False there always: the "
-            "time limit is Gymnasium's.",
+            f"{said}: truncated is True, but step should always return False there: "
+            "Gymnasium watches the time limit.",
         )
         why = f"with the centre of the body {height:.3f} m high it should be"
         try:
@@ -784,7 +818,9 @@ def ends_when_fallen(student: Student):
         except Wrong as error:
             wrong = wrong or error
     if wrong and early and missed:
-        raise Wrong(f"{wrong}\n  It tells whether it had fallen before the step: look after it.")
+        raise Wrong(
+            f"{wrong}\n  terminated fits the height before the step, but should fit that after it."
+        )
     if wrong:
         raise Wrong(f"{wrong}{of_fallen(student)}" if missed else str(wrong))
     for heights in ([0.15, 0.3], [0.05, 0.1499, 0.1501, 0.15]):
@@ -802,8 +838,8 @@ def draws_in_a_window_only(student: Student):
         wanted = 4 if mode == "human" else 0
         expect(
             drawn == wanted,
-            f"four calls of step([0.5]) with self.render_mode = {mode!r} called self.render() "
-            f"{drawn} times, but should have {wanted} times.",
+            f"with self.render_mode = {mode!r}, in four calls of step([0.5]), the number of calls "
+            f"of self.render() is {drawn}, but should be {wanted}.",
         )
 
 
@@ -814,8 +850,8 @@ def leaves_the_time_limit_to_gymnasium(student: Student):
     for i, ((_, _, _, truncated), *_) in enumerate(answers, 1):
         expect(
             not truncated,
-            f"step([0.0]), call {i}, of the environment itself: truncated is {show(truncated)}. "
-            "The environment never cuts an episode: max_episode_steps of task 10.7 does.",
+            f"step([0.0]), call {i}: truncated is {show(truncated)}, but should be False. The "
+            "environment itself should never cut an episode: max_episode_steps of task 10.7 does.",
         )
 
 
@@ -844,28 +880,28 @@ def registered(module, urdf, seed, gains=None):
     module.register_robot()
     if name not in gymnasium.registry:
         near = [each for each in gymnasium.registry if each.lower().startswith("bal")]
-        return f"register_robot did not register this name{', but ' if near else ''}{near[:1]}."
+        return f"register_robot did not register {name!r}{f', but {near[0]!r}' if near else ''}."
     made = gymnasium.registry[name].entry_point
     if not callable(made) and ":" not in str(made):
-        return f"entry_point is {made!r:.60}: give the class, not an object of it or its name."
+        return f"entry_point is {made!r:.60}, but should be the class itself."
     if isinstance(made, str):
         try:
             importlib.import_module(made.partition(":")[0])
         except Exception:
-            return f"entry_point is {made!r:.60}, but here is no such module: give the class."
+            return f"entry_point is {made!r:.60}, which cannot be imported here: take the class."
     most = gymnasium.registry[name].max_episode_steps
     warnings.simplefilter("ignore")
     if gains is None:
         module.register_robot()  # once more, as in a notebook
         env, other = (gymnasium.make(name).unwrapped for _ in range(2))
         if env is other:
-            return "it gives the same object twice, but each call is to make a new environment."
+            return "it gives the same object twice, but each call should make a new environment."
         other.close()
         check_env(env, skip_render_check=True)
         return env.reset(seed=seed)[0]
     env = gymnasium.make(name, render_mode="rgb_array")
     if env.unwrapped.render_mode != "rgb_array":
-        return f"its render_mode is {env.unwrapped.render_mode!r}, not 'rgb_array'."
+        return f"its render_mode is {env.unwrapped.render_mode!r}, but should be 'rgb_array'."
     observation, ends = env.reset(seed=seed)[0], [False, False]
     seen = [observation]
     while len(seen) <= 600 and not any(ends):
@@ -908,12 +944,14 @@ def compare_episode(student: Student, index: int, gains: np.ndarray) -> None:
         isinstance(seen, np.ndarray) and seen.ndim == 2 and seen.shape[1] == 3,
         f"{said}: no observations of three numbers came back.",
     )
-    endless = "" if most == 500 else f" max_episode_steps is {show(most)}."
+    endless = "" if most == 500 else f" max_episode_steps is {show(most)}, but should be 500."
     expect(
         min(lengths) <= len(seen) <= max(lengths),
-        f"{said} had {len(seen) - 1} steps, but should have {steps}.{endless}",
+        f"{said}: the number of steps played is {len(seen) - 1}, but should be {steps}.{endless}",
     )
-    expect_ends(said, (terminated, truncated), (fell, not fell), f"after {steps} steps should be")
+    expect_ends(
+        said, (terminated, truncated), (fell, not fell), f"after {steps} steps it should be"
+    )
     length = min(len(seen), *lengths)
     seen, observations = seen[:length], observations[:length]
     apart = np.max([np.abs(each[:length] - observations) for each, _ in ways], axis=0)
@@ -1009,17 +1047,17 @@ def says_what_it_needs(student: Student):
     files = student.call("package_files")
     (text,) = expect_fields(student.said, files, "pyproject.toml")
     said = 'package_files()["pyproject.toml"]'
-    expect(isinstance(text, str), f"{said} must be a text, not {show(text)}.")
+    expect(isinstance(text, str), f"{said} is {show(text)}, but should be a text.")
     try:
         content = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise Wrong(f"{said} is not valid: {error}.") from None
+        raise Wrong(f"{said} is not valid TOML: {error}.") from None
     for table in ("build-system", "project", "tool"):
         expect(isinstance(content.get(table), dict), f"{said} has no table [{table}].")
     (backend,) = expect_fields(f"{said}: [build-system]", content.get("build-system"), "requires")
     expect(
         isinstance(backend, list) and any("setuptools" in str(each) for each in backend),
-        f"{said}: [build-system] must require setuptools.",
+        f"{said}: requires in [build-system] should be a list that names setuptools.",
     )
     backend = content["build-system"].get("build-backend")
     expect(
@@ -1034,34 +1072,35 @@ def says_what_it_needs(student: Student):
         str(name).replace("-", "_") == "balance_bot",
         f"{said}: the project's name is {show(name)}, but should be balance_bot.",
     )
-    expect(isinstance(version, str) and version != "", f"{said}: the version must be a text.")
+    expect(isinstance(version, str) and version != "", f"{said}: the version should be a text.")
     for package in ("gymnasium", "numpy", "pybullet"):
         expect(
             isinstance(needs, list) and any(str(each).startswith(package) for each in needs),
-            f"{said}: the dependencies must name {package}.",
+            f"{said}: dependencies should be a list that names {package}.",
         )
     tool = content.get("tool", {}).get("setuptools", {})
     (packages,) = expect_fields(f"{said}: [tool.setuptools]", tool, "packages")
-    expect("package-data" in tool, f"{said}: [tool.setuptools] is without 'package-data'.")
+    expect("package-data" in tool, f"{said}: [tool.setuptools] has no 'package-data'.")
     data = tool["package-data"]
     expect(
-        packages == ["balance_bot"], f"{said}: packages is {show(packages)}, not ['balance_bot']."
+        packages == ["balance_bot"],
+        f"{said}: packages is {show(packages)}, but should be ['balance_bot'].",
     )
     expect(
         isinstance(data, dict) and "balance_bot" in data,
-        f"{said}: package-data is {show(data)}, but a table is asked for, which gives the files of "
-        "the package under its name, balance_bot.",
+        f"{said}: package-data is {show(data)}, but should be a table with a list of files under "
+        "the name of the package, balance_bot.",
     )
     patterns = data["balance_bot"]
     expect(
         not isinstance(patterns, str),
-        f"{said}: package-data has the text {show(patterns)} for balance_bot, but a list is "
-        "asked for.",
+        f"{said}: package-data has the text {show(patterns)} for balance_bot, but should have a "
+        "list.",
     )
     expect(
         isinstance(patterns, list) and any(fnmatch("balance_bot.urdf", str(p)) for p in patterns),
         f"{said}: package-data leaves out balance_bot.urdf, so the robot's file would not be "
-        "installed. Its path is that inside the package's folder.",
+        "installed. Paths should be those inside the package's folder.",
     )
 
 
@@ -1081,17 +1120,18 @@ def registers_on_import(student: Student):
     steps, seen, early = answer
     expect(
         not early,
-        f"{said}, loads balance_bot.env at once, but the class is to be loaded only when somebody "
-        "makes the environment: the entry point is a text, and nothing is imported from env.",
+        f"{said}, loads balance_bot.env at once, but the class should be loaded only when "
+        "somebody makes the environment: the entry point should be a text, and nothing should be "
+        "imported from env.",
     )
     expect(
         steps == 500,
-        f"{said}: episodes are cut after {steps} steps, but should be after 500."
+        f"{said}: episodes are cut after {steps} steps, but should be cut after 500."
         if steps
-        else f"{said}: an episode of 1000 steps was not cut, but should be after 500.",
+        else f"{said}: an episode of 1000 steps was not cut, but should be cut after 500.",
     )
     wanted = np.float32(np.resize(numbers, 501))
-    expect_close(f"{said}: the observations of a class in balance_bot/env.py", seen, wanted, 1e-6)
+    expect_close(f"{said}: what a class in the module env observes", seen, wanted, 1e-6)
 
 
 # ------------------------------------------------------------------ 10.9
@@ -1258,13 +1298,14 @@ def expect_balance(said: str, layers: list, robot: tuple[bool, int], index: int,
     good = sum(count == 500 for count in steps)
     if good < 20:
         raise Wrong(
-            f"{said}: {NAMES[robot]} balances for 500 steps in {good} of 20 new episodes (on "
-            f"average for {np.mean(steps):.0f} steps), but 20 of 20 are asked for. {why()}".rstrip()
+            f"{said}, called for {NAMES[robot]}: the robot balances for 500 steps in {good} of 20 "
+            f"new episodes (on average for {np.mean(steps):.0f} steps), but 20 of 20 are asked "
+            f"for. {why()}".rstrip()
         )
 
 
 NAMES = {
-    (False, -1): "a robot whose sensor tells the angular velocity with the other sign",
+    (False, -1): "a robot whose gyroscope is mounted the other way round",
     (True, 1): "a robot whose wheels turn the other way",
 }
 FIRST = 12
@@ -1286,14 +1327,14 @@ def expect_seeded(student: Student, name: str, seed: int, robot: tuple, actions:
         same = np.array_equal(again[:FIRST], actions[:FIRST])
         expect(
             same or other != seed,
-            f"{said}, called twice, makes other first steps in its first {FIRST} episodes: either "
-            "something random does not come from the seed, or something stays from call to call "
-            "(a variable of the module, or an array that is changed in place).",
+            f"{said}, called twice, takes different first actions in the first {FIRST} episodes: "
+            "either something random does not come from the seed, or something stays from call to "
+            "call (a variable of the module, or an array that is changed in place).",
         )
         expect(
             not same or other == seed,
-            f"{said} makes the same first steps as {name}(seed={seed}) in its first {FIRST} "
-            "episodes, but another seed must give another controller.",
+            f"{said} takes the same first actions as {name}(seed={seed}) in the first {FIRST} "
+            "episodes, but another seed should give another controller.",
         )
 
 
@@ -1313,12 +1354,13 @@ def evolves(student: Student, index: int, robot: tuple[bool, int]) -> np.ndarray
     else:
         balances = partial(all_balanced, robot, place + 1)
         why = partial(why_fallen, parameters, steps, balances)
-        expect_balance(f"{said}, tried after another seed", layers, robot, place + 1, why)
+        expect_balance(f"{said} (the last seed that was tried)", layers, robot, place + 1, why)
     expect(
         len(steps) >= 20 and good <= 6,
-        f"{said} played {len(steps)} episodes, and in {good} of the first ten the robot balanced "
-        "to the end. Begin with weights that know nothing of a robot, and let evolution find "
-        "better ones: at least 20 episodes, of which at most 6 of the first ten balance.",
+        f"{said}: the number of episodes is {len(steps)}, and in {good} of the first ten the robot "
+        "balanced to the end. Evolution should begin with weights that know nothing of a robot, "
+        "and find better ones: it should play at least 20 episodes, and in at most 6 of the first "
+        "ten the robot should balance to the end.",
     )
     expect_seeded(student, "evolve", seed, robot, actions)
     return parameters
@@ -1330,8 +1372,8 @@ def balances_whichever_way_the_wheels_turn(student: Student):
     expect(
         not np.allclose(abs(one), abs(other), rtol=0.03, atol=0.05),
         f"evolve found {show(one)} for one robot, and {show(other)} with another seed for another "
-        "robot: the same weights but for their signs. Begin with weights that know nothing of a "
-        "robot.",
+        "robot. These are nearly the same weights but for their signs, but evolution should begin "
+        "with weights that know nothing of a robot.",
     )
 
 
@@ -1349,7 +1391,7 @@ def balances_after_training(student: Student):
         if all(count == 500 for count in balanced(layers, robot, index + 1)):
             break
     else:
-        expect_balance(f"{said}, tried after another seed", layers, robot, index + 1, why)
+        expect_balance(f"{said} (the last seed that was tried)", layers, robot, index + 1, why)
     expect_seeded(student, "train", seed, robot, actions)
 
 
@@ -1361,37 +1403,41 @@ def trained(student: Student, seed: int, robot: tuple[bool, int]) -> tuple:
     answer, actions, steps, updates, same, change, critics, begun = report
     expect(
         isinstance(answer, list) and 0 < len(answer) < 10,
-        f"{said} returned {show(answer)}, but a list of layers is needed.",
+        f"{said} returned {show(answer)}, but a list of 1 to 9 layers is needed.",
     )
     layers, inputs = [], 3
     for i, layer in enumerate(answer):
         expect(
             isinstance(layer, list) and len(layer) == 2 and np.ndim(layer[0]) == 2,
-            f"{said}: layer {i} must be weights (two dimensions) and biases.",
+            f"{said}: layer {i} should be a list of weights (two dimensions) and biases.",
         )
         neurons = len(layer[0]) if i + 1 < len(answer) else 1
-        weights = expect_array(f"{said}: weights of layer {i}", layer[0], (neurons, inputs))
-        layers.append((weights, expect_array(f"{said}: biases of layer {i}", layer[1], (neurons,))))
+        weights = expect_array(
+            f"{said}: the weight matrix of layer {i}", layer[0], (neurons, inputs)
+        )
+        layers.append(
+            (weights, expect_array(f"{said}: the bias vector of layer {i}", layer[1], (neurons,)))
+        )
         inputs = neurons
     expect(
         same is True or begun is False,
-        f"{said}: the layers are those of the policy before PPO's first update. PPO trained the "
-        "network after they had been copied.",
+        f"{said}: the layers are those of the policy before PPO's first update, but should be "
+        "those after the training.",
     )
     expect(
         same is True,
-        f"{said}: the layers are not all those of a policy after one of PPO's updates, of which "
-        f"there were {show(updates)}. What is asked for here is a network that PPO has trained.",
+        f"{said}: the layers are not all those of a policy after one of PPO's updates (number of "
+        f"updates: {show(updates)}), but the network that PPO has trained is asked for.",
     )
     expect(
         change > 1e-3,
-        f"{said}: PPO's {show(updates)} updates changed the weights of the largest layer by "
-        f"{change:.2g} on average. That is too little to learn from: what it does now, it did "
-        "before.",
+        f"{said}: PPO changed the weights of the largest layer by {change:.2g} on average (number "
+        f"of updates: {show(updates)}). That is too little to learn from: the training should "
+        "find the controller.",
     )
     expect(
         not critics,
-        f"{said}: layer {show(critics[:1])[1:-1]} is the critic's (value_net): the network from "
-        "observations to actions is asked for, as actor_layers takes it out.",
+        f"{said}: layer {show(critics[:1])[1:-1]} is the critic's (value_net), but the network "
+        "from observations to actions is asked for, as actor_layers takes it out.",
     )
     return said, layers, actions, partial(why_untrained, steps, int(updates))

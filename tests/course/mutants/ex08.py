@@ -11,7 +11,7 @@ def candidates_around(centre, samples, noiseStdDev):
 
 # %% plus_before_minus loses 8.1
 # Returns all plus candidates first and then all minus candidates, but the two candidates of a sample should be neighbours (rows 2 b and 2 b + 1).
-# says: All plus come before all minus
+# says: two of a sample should be neighbours
 def candidates_around(centre, samples, noiseStdDev):
     return np.concatenate([centre + noiseStdDev * samples, centre - noiseStdDev * samples])
 
@@ -962,7 +962,7 @@ def smooth(curve, width):
 
 # %% rounded_drop loses 8.7
 # Moves the limits of the verdicts to about 0.15 and 0.35 (rounding the drop to one digit does so) instead of deciding at exactly 0.1 and 0.3.
-# says: is rounded to one digit
+# says: as if rounded to one digit
 # -     if drop <= 0.1:
 # +     if round(drop, 1) <= 0.1:
 # -     elif drop <= 0.3:
@@ -1067,7 +1067,7 @@ def smooth(curve, width):
 
 # %% drop_of_two_places loses 8.7
 # Rounds the drop to two decimal places, but it should not be rounded.
-# says: It is rounded
+# says: drop is rounded, but
 # -     drop = float(falls[bottom] / height) if height > 0 else 0.0
 # +     drop = round(float(falls[bottom] / height), 2) if height > 0 else 0.0
 
@@ -1131,7 +1131,7 @@ def descent(gradient, centre, wdecay):
 
 # %% minus_first_and_scaled_centre loses 8.1
 # Multiplies the centre by noiseStdDev, too, and puts the minus candidate first; only the samples should be multiplied, and the plus candidate should come first.
-# says: multiplies the samples alone, not the centre, too. Minus comes before plus
+# says: multiplied by noiseStdDev, too,.* Minus comes before plus
 def candidates_around(centre, samples, noiseStdDev):
     rows = []
     for e in samples:
@@ -1268,7 +1268,7 @@ def smooth(curve, width):
 
 # %% peak_of_the_whole_curve loses 8.7
 # Takes the highest value of the whole curve for the peak instead of the highest value up to the bottom.
-# says: this|not of the whole curve
+# says: this|of the whole curve
 # -     peak = int(np.argmax(curve[: bottom + 1]))
 # +     peak = int(np.argmax(curve))
 
@@ -1334,7 +1334,7 @@ def smooth(curve, width):
 
 # %% severe_from_a_half loses 8.7
 # Calls drops between 0.3 and about 0.5 'mild regressions', but every drop of more than 0.3 should be 'severe regressions'.
-# says: the limit is 0.3
+# says: should change at 0.3
 # -     elif drop <= 0.3:
 # +     elif drop <= 0.5:
 
@@ -1346,7 +1346,7 @@ def smooth(curve, width):
 
 # %% minimises_fitness loses 8.8
 # Moves the centre to where fitness is lower (as with the fitness negated), but fitness should rise.
-# says: fitness is to rise
+# says: fitness should rise
 # -         return robot.evaluate(candidates, seed, episodes=10)
 # +         return -robot.evaluate(candidates, seed, episodes=10)
 
@@ -1461,6 +1461,8 @@ def candidates_around(centre, samples, noiseStdDev):
         place = place - 2 * leg
         rows.append(place)
     return np.array(rows)
+
+
 # %% zero_counts_as_negative loses 8.4
 # Subtracts 0.005 where the centre is 0 (wdecay 2), but there should be no pull on a parameter that is 0.
 # -     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]

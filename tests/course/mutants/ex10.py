@@ -1,7 +1,7 @@
 """Wrong solutions of exercise 10; building.py describes how a case is written."""
 
 # %% default_axis_is_z loses 10.1
-# Takes z for the axis of a joint that names none.
+# Takes [0, 0, 1] for the axis of a joint that has none in the file, but [1, 0, 0] is asked for.
 # says: turns around x
 _describe = describe
 
@@ -16,7 +16,7 @@ def describe(urdf):
 
 
 # %% inertial_origins_forgotten loses 10.1
-# Takes the places of the joints for those of the centres: the inertial origins are forgotten.
+# Leaves out the origins in inertial, so that each link has its centre of mass at its frame.
 _describe = describe
 
 
@@ -30,7 +30,7 @@ def describe(urdf):
 
 
 # %% limits_of_the_chapter loses 10.2
-# Limits that the robot exceeds: pi rad/s and 5 rad/s.
+# Limits the angular velocity to pi and the speed of the wheels to 5, but no limits (np.inf) and FASTEST are asked for.
 # says: should be \[.*inf
 class BalanceBotEnv(BalanceBotEnv):
     def __init__(self, render_mode=None):
@@ -40,7 +40,7 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% part_of_the_quaternion loses 10.3, 10.7
-# Takes the first number of the quaternion for the angle.
+# Observes the first number of the quaternion as the inclination, but the first Euler angle is asked for (see getEulerFromQuaternion).
 # says: this
 class BalanceBotEnv(BalanceBotEnv):
     def observe(self):
@@ -50,7 +50,7 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% turning_around_z loses 10.3, 10.7
-# Observes the angular velocity around the upright axis.
+# Observes the angular velocity around the z axis, but that around the x axis is asked for.
 class BalanceBotEnv(BalanceBotEnv):
     def observe(self):
         seen = super().observe()
@@ -59,7 +59,7 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% earth_gravity loses 10.4, 10.7
-# Gravity 9.81 downwards, as on earth, but not as in the text.
+# Sets gravity to -9.81 along z, but -10 is asked for.
 # says: this
 class BalanceBotEnv(BalanceBotEnv):
     def reset(self, *, seed=None, options=None):
@@ -69,15 +69,15 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% same_start_always loses 10.4, 10.7
-# Draws from a generator of its own with a fixed seed, so that all episodes begin alike.
+# Begins each episode with the inclination that seed 1 gives, but the argument seed should decide.
 class BalanceBotEnv(BalanceBotEnv):
     def reset(self, *, seed=None, options=None):
         return super().reset(seed=1)
 
 
 # %% speed_not_reset loses 10.4, 10.7
-# The wheels keep the target speed of the episode before.
-# says: self.speed is 7, not 0
+# Keeps the target speed of the episode before, but self.speed should be 0 after reset.
+# says: self.speed is 7, but should be 0
 class BalanceBotEnv(BalanceBotEnv):
     def reset(self, *, seed=None, options=None):
         before = self.speed
@@ -87,7 +87,7 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% unseeded_start loses 10.4, 10.7
-# Draws the inclination from NumPy's global generator, which no seed reaches.
+# Draws the inclination from random numbers that do not depend on the seed, but self.np_random is asked for.
 # says: do not come from the seed
 class BalanceBotEnv(BalanceBotEnv):
     def reset(self, *, seed=None, options=None):
@@ -95,8 +95,8 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% action_not_cut loses 10.5
-# A large action changes the speed by more than 1.
-# says: is not cut to -1 and 1
+# Adds the action to the speed without cutting it to between -1 and 1 first.
+# says: is not cut to between -1 and 1
 class BalanceBotEnv(BalanceBotEnv):
     def drive(self, action):
         self.speed = self.speed + float(action[0]) - np.clip(float(action[0]), -1.0, 1.0)
@@ -104,7 +104,7 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% wheels_against_each_other loses 10.5, 10.7
-# Both motors get the same target, so that the robot spins instead of driving.
+# Gives both motors the same target velocity, but motor 0 should get self.speed and motor 1 -self.speed.
 class BalanceBotEnv(BalanceBotEnv):
     def drive(self, action):
         super().drive(action)
@@ -118,7 +118,7 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% reward_of_driving_forward loses 10.6
-# The speed costs in one direction, and is rewarded in the other.
+# Takes the speed with its sign for the price, so that one direction is rewarded, but both should cost the same.
 # says: see abs\(\)
 class BalanceBotEnv(BalanceBotEnv):
     def reward(self):
@@ -126,7 +126,7 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% judged_by_the_angle loses 10.6, 10.7
-# Ends the episode when the body leans by more than 45 degrees.
+# Ends an episode when the body leans by about 45 degrees, but it should end when the centre of the body is lower than LOWEST.
 # says: terminated is True, but with the centre of the body
 class BalanceBotEnv(BalanceBotEnv):
     def fallen(self):
@@ -134,7 +134,7 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% two_steps_at_once loses 10.6, 10.7
-# Lets the simulation make two steps for each action.
+# Lets the simulation make two steps for each action, but one is asked for.
 class BalanceBotEnv(BalanceBotEnv):
     def step(self, action):
         self.drive(action)
@@ -143,14 +143,14 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% no_time_limit loses 10.7
-# Registers the environment without a limit of steps.
-# says: had 600 steps, but should have 500
+# Registers the environment without max_episode_steps, but 500 is asked for.
+# says: is 600, but should be 500
 def register_robot():
     gymnasium.register(id="BalanceBotBulletEnv-v0", entry_point=BalanceBotEnv)
 
 
 # %% robot_left_out loses 10.8
-# The package gets installed without the robot's file, and loads PyBullet on import.
+# Leaves balance_bot.urdf out of package-data, and imports the class in __init__.py, so that PyBullet is loaded with the package.
 _package_files = package_files
 
 
@@ -163,7 +163,7 @@ def package_files():
 
 
 # %% first_generation loses 10.9
-# Returns a random controller.
+# Returns random parameters without evolving them.
 def evolve(seed):
     return 0.1 * np.random.default_rng(seed).standard_normal(4)
 
@@ -176,14 +176,14 @@ def evolve(seed):
 
 
 # %% evolved_instead loses 10.10
-# Hands in an evolved controller as a network of one layer.
+# Returns an evolved controller as a network of one layer, but the layers that PPO has trained are asked for.
 def train(seed):
     bias, *weights = evolve(seed)
     return [[np.array([weights]), np.array([bias])]]
 
 
 # %% untrained loses 10.10
-# Returns the network as PPO initialises it.
+# Returns the layers of PPO's network without training it.
 def train(seed):
     from stable_baselines3 import PPO
 
@@ -191,28 +191,28 @@ def train(seed):
 
 
 # %% places_in_the_parent loses 10.1
-# The place of a joint is taken in its parent's frame alone: earlier links of the chain do not count.
+# Takes the origin of a joint for the frame of its child, without adding the frame of the parent.
 # says: this
 # -         frames[child] = frames[parent] + origin
 # +         frames[child] = np.array(origin)
 
 
 # %% axis_without_sign loses 10.1
-# The axis of a joint has lost its sign.
+# Takes the absolute values of a joint's axis, but the signs of the file are asked for.
 # says: this
 # -         axis = numbers_of(joint.find("axis"), "xyz", [1.0, 0.0, 0.0])
 # +         axis = [abs(each) for each in numbers_of(joint.find("axis"), "xyz", [1.0, 0.0, 0.0])]
 
 
 # %% mass_without_the_base loses 10.1
-# The mass is that of the links that a joint moves: the first link does not count.
+# Leaves the first link out of the mass of the robot, but all links count.
 # says: this
 # -     mass, moment = sum(links.values()), np.zeros(3)
 # +     mass, moment = sum(list(links.values())[1:]), np.zeros(3)
 
 
 # %% in_simulation_0 loses 10.3, 10.7
-# Looks at the robot of simulation 0: the physicsClientId is missing.
+# Does not observe the inclination of this robot. (Without physicsClientId, PyBullet looks into simulation 0.)
 # says: this
 class BalanceBotEnv(BalanceBotEnv):
     def observe(self):
@@ -223,7 +223,7 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% speed_of_the_wheel loses 10.3, 10.7
-# Observes the speed at which the wheel turns, not the one that it should have.
+# Does not observe the target speed, self.speed. (The speed at which a wheel turns may be another one.)
 # says: this
 class BalanceBotEnv(BalanceBotEnv):
     def observe(self):
@@ -233,7 +233,7 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% on_the_ground loses 10.4, 10.7
-# The robot begins at the height 0.
+# Puts the base of the robot at the height 0, but 0.001 is asked for.
 # says: 30 steps later
 class BalanceBotEnv(BalanceBotEnv):
     def reset(self, *, seed=None, options=None):
@@ -246,13 +246,13 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% robots_pile_up loses 10.4, 10.7
-# The old robot stays in the world: its simulation is not emptied. resetSimulation(number) takes the number for something else: write physicsClientId=number.
+# Does not empty this robot's simulation, so that earlier robots stay in it. resetSimulation needs physicsClientId=self.client, with this name.
 # says: this
 # -         pybullet.resetSimulation(physicsClientId=self.client)
 
 
 # %% own_inertia loses 10.4, 10.7
-# PyBullet computes the inertias anew: the flag is missing.
+# Loads the robot without the flag URDF_USE_INERTIA_FROM_FILE, so that PyBullet does not use the inertias of its file.
 # says: this
 # -             flags=pybullet.URDF_USE_INERTIA_FROM_FILE,
 # -             physicsClientId=self.client,
@@ -264,20 +264,20 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% no_step_of_its_own loses 10.4, 10.7
-# The time step stays PyBullet's own: none is set in this simulation (physicsClientId).
+# Uses PyBullet's own time step of 1/240 s in this simulation, but TIME_STEP is asked for (see setTimeStep and its physicsClientId).
 # says: this
 # -         pybullet.setTimeStep(TIME_STEP, physicsClientId=self.client)
 
 
 # %% starts_twice_as_steep loses 10.4, 10.7
-# Begins with inclinations of up to 0.6.
+# Draws the inclination from -0.6 to 0.6, but from -0.3 to 0.3 is asked for.
 # says: this
 # -         inclination = self.np_random.uniform(-0.3, 0.3)
 # +         inclination = 2 * self.np_random.uniform(-0.3, 0.3)
 
 
 # %% changes_the_action loses 10.5
-# Cuts the caller's own array: the action is another one after the call.
+# Changes the caller's array of the action, but drive should leave it as it is.
 # says: changed the caller's array
 class BalanceBotEnv(BalanceBotEnv):
     def drive(self, action):
@@ -286,14 +286,14 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% limited_on_one_side loses 10.5
-# The speed is limited forwards, and not backwards.
+# Cuts the speed at FASTEST, but not at -FASTEST.
 # says: this
 # -         self.speed = float(np.clip(self.speed + change, -FASTEST, FASTEST))
 # +         self.speed = float(min(self.speed + change, FASTEST))
 
 
 # %% remembers_the_uncut_speed loses 10.5
-# The motors get the limited speed, but self.speed keeps growing.
+# Cuts the speed only for the motors, but self.speed should be cut to between -FASTEST and FASTEST, too.
 # says: this
 # -         self.speed = float(np.clip(self.speed + change, -FASTEST, FASTEST))
 # -         for wheel, target in ((0, self.speed), (1, -self.speed)):
@@ -303,7 +303,7 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% rewarded_before_it_drives loses 10.6
-# The reward is that of the speed before the action.
+# Computes the reward of the speed before the action, but that of the speed after it is asked for.
 # says: this
 # -         self.drive(action)
 # -         pybullet.stepSimulation(self.client)
@@ -315,8 +315,8 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% window_not_drawn loses 10.6
-# A window is never drawn: step does not call render.
-# says: called self.render\(\) 0 times
+# Never calls self.render() in step, but step should call it if self.render_mode is "human".
+# says: self.render\(\) is 0
 # -         if self.render_mode == "human":
 # -             self.render()
 # -         return self.observe(), self.reward(), self.fallen(), False, {}
@@ -324,8 +324,8 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% counts_its_steps_itself loses 10.6
-# The environment says by itself that 500 steps are over, which Gymnasium's time limit does.
-# says: never cuts an episode
+# Returns True for truncated from step 500 on, but step should always return False there: Gymnasium watches the time limit.
+# says: should never cut an episode
 class BalanceBotEnv(BalanceBotEnv):
     def reset(self, *, seed=None, options=None):
         self.count = 0
@@ -338,14 +338,14 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% fallen_is_truncated loses 10.6, 10.7
-# A fall is reported as truncated.
+# Reports a fall as truncated, but it should be terminated, and truncated should always be False.
 # says: this
 # -         return self.observe(), self.reward(), self.fallen(), False, {}
 # +         return self.observe(), self.reward(), False, self.fallen(), {}
 
 
 # %% without_a_render_mode loses 10.7
-# gymnasium.make cannot hand on a render_mode: the entry point takes none.
+# Registers an entry point that takes no render_mode, but gymnasium.make should be able to hand one on.
 # says: render_mode
 def register_robot():
     gymnasium.register(
@@ -354,14 +354,14 @@ def register_robot():
 
 
 # %% one_step_more loses 10.7
-# Episodes end after 501 steps.
+# Sets max_episode_steps to 501, but 500 is asked for.
 # says: 501
 # -         id="BalanceBotBulletEnv-v0", entry_point=BalanceBotEnv, max_episode_steps=500
 # +         id="BalanceBotBulletEnv-v0", entry_point=BalanceBotEnv, max_episode_steps=501
 
 
 # %% no_such_backend loses 10.8
-# The build backend is none that exists.
+# Names setuptools.build as the build-backend, but setuptools.build_meta is asked for.
 # says: build-backend is 'setuptools.build'
 _package_files = package_files
 
@@ -373,8 +373,8 @@ def package_files():
 
 
 # %% needs_gym loses 10.8
-# Depends on the old package gym, and not on gymnasium.
-# says: must name gymnasium
+# Names the old package gym in the dependencies, but gymnasium is asked for.
+# says: names gymnasium
 _package_files = package_files
 
 
@@ -385,7 +385,7 @@ def package_files():
 
 
 # %% no_limit_in_the_package loses 10.8
-# The package registers the environment without a limit of steps.
+# Registers the environment in __init__.py without max_episode_steps, but 500 is asked for.
 # says: was not cut
 _package_files = package_files
 
@@ -397,7 +397,7 @@ def package_files():
 
 
 # %% by_heart_with_a_sign loses 10.9
-# Tries known weights with both signs, and keeps the better ones.
+# Tries known weights with both signs and keeps the better ones, but evolution should find the weights.
 # says: balances for 500 steps in
 def evolve(seed):
     robot = Robot("BalanceBotBulletEnv-v0", nhiddens=0)
@@ -407,8 +407,8 @@ def evolve(seed):
 
 
 # %% evolves_from_known_weights loses 10.9
-# Begins to evolve at weights that balance already, with the sign that fits.
-# says: of 20 new|Begin with weights
+# Begins evolution with weights that balance already, but it should begin with weights that know nothing of a robot.
+# says: of 20 new|begin with weights
 def evolve(seed):
     robot = Robot("BalanceBotBulletEnv-v0", nhiddens=0)
     rng = np.random.default_rng(seed)
@@ -423,8 +423,8 @@ def evolve(seed):
 
 
 # %% seed_ignored loses 10.9
-# Evolves with the seed 1 always.
-# says: same first steps
+# Always evolves with seed 1, but the argument seed should decide.
+# says: same first actions
 _evolve = evolve
 
 
@@ -433,7 +433,7 @@ def evolve(seed):
 
 
 # %% another_every_time loses 10.9
-# The same seed gives another controller each time.
+# Returns another controller each time for the same seed, but the same seed should give the same.
 # says: something random does not come from the seed
 _evolve = evolve
 
@@ -443,7 +443,7 @@ def evolve(seed):
 
 
 # %% imitates_before_it_trains loses 10.10
-# Sets a network that was evolved before into PPO's policy; PPO then learns at a rate of nearly 0.
+# Puts an evolved controller into PPO's policy and then hardly trains it, but PPO should find the controller.
 # says: too little to learn from
 def train(seed):
     import torch
@@ -469,7 +469,7 @@ def train(seed):
 
 
 # %% ppo_of_another_seed loses 10.10
-# PPO gets no seed: the same seed gives other networks.
+# Does not hand the seed to PPO, so that the same seed gives other networks.
 # says: something random does not come from the seed
 # -         seed=seed,
 # -         device="cpu",
@@ -479,14 +479,14 @@ def train(seed):
 
 
 # %% origin_of_the_picture loses 10.1
-# The centre of a link is read from the visual part, not from the inertial one.
+# Takes the centre of mass of a link from the origin in visual, but the one in inertial is asked for.
 # says: this
 # -         inside = numbers_of(link.find("inertial/origin"), "xyz", [0.0, 0.0, 0.0])
 # +         inside = numbers_of(link.find("visual/origin"), "xyz", [0.0, 0.0, 0.0])
 
 
 # %% heavy_and_light_alike loses 10.1
-# The centres of the links are not weighted by their masses.
+# Takes the mean of the links' centres of mass without weighting them by the masses.
 # says: this
 # -         moment += links[link.get("name")] * (frames[link.get("name")] + inside)
 # -     return {"links": links, "joints": joints, "mass": mass, "centre": (moment / mass).tolist()}
@@ -496,14 +496,14 @@ def train(seed):
 
 
 # %% continuous_joints_only loses 10.1
-# Only joints of the type continuous are listed.
+# Lists only joints of the type continuous, but all joints are asked for.
 # says: this
 # -         joints.append(
 # +         (joints if joint.get("type") == "continuous" else []).append(
 
 
 # %% joints_by_name loses 10.1
-# The joints come in the order of their names, not in that of the file.
+# Sorts the joints by their names, but the order of the file is asked for.
 # says: this
 # -     mass, moment = sum(links.values()), np.zeros(3)
 # +     joints.sort(key=lambda each: each["name"])
@@ -511,7 +511,7 @@ def train(seed):
 
 
 # %% axis_of_length_1 loses 10.1
-# The axis is made 1 long, though the file says otherwise.
+# Divides the axis of a joint by its length, but the numbers of the file are asked for.
 # says: this
 # -         axis = numbers_of(joint.find("axis"), "xyz", [1.0, 0.0, 0.0])
 # +         axis = numbers_of(joint.find("axis"), "xyz", [1.0, 0.0, 0.0])
@@ -519,7 +519,7 @@ def train(seed):
 
 
 # %% centre_rounded loses 10.1
-# The centre of mass is rounded to two digits.
+# Rounds the centre of mass to two decimals, but it should not be rounded.
 # says: this
 # -     return {"links": links, "joints": joints, "mass": mass, "centre": (moment / mass).tolist()}
 # +     return {"links": links, "joints": joints, "mass": mass,
@@ -527,7 +527,7 @@ def train(seed):
 
 
 # %% seen_from_the_first_centre loses 10.1
-# The centre of mass is seen from that of the first link, not from its frame.
+# Counts the centre of mass from that of the first link, but it should be seen from the frame of the first link.
 # says: this
 # -     return {"links": links, "joints": joints, "mass": mass, "centre": (moment / mass).tolist()}
 # +     first = numbers_of(root.find("link/inertial/origin"), "xyz", [0.0, 0.0, 0.0])
@@ -536,7 +536,7 @@ def train(seed):
 
 
 # %% parents_move_along loses 10.1
-# frames[child] is the parent's array and grows in place (+=), so that the parent's frame moves as well.
+# Moves the frame of the parent along with that of the child, as += does with an array that both share; the parent's should stay.
 # says: this
 # -         frames[child] = frames[parent] + origin
 # +         frames[child] = frames[parent]
@@ -544,8 +544,8 @@ def train(seed):
 
 
 # %% double_spaces loses 10.2
-# Both spaces are of type float64.
-# says: holds float64, but float32
+# Makes both spaces of type float64, but float32 is asked for.
+# says: float64, but should be float32
 # -         limits = np.array([np.pi, np.inf, FASTEST], dtype=np.float32)
 # -         self.observation_space = gymnasium.spaces.Box(-limits, limits)
 # -         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, shape=(1,))
@@ -555,21 +555,21 @@ def train(seed):
 
 
 # %% limit_of_25 loses 10.2
-# The speed of the wheels is limited to 25 in the space, not to FASTEST.
+# Limits the speed of the wheels to 25 in observation_space, but FASTEST is asked for.
 # says: is \[-3.14159, -inf, -25. \], but should be \[-3.14159, -inf, -24.6
 # -         limits = np.array([np.pi, np.inf, FASTEST], dtype=np.float32)
 # +         limits = np.array([np.pi, np.inf, 25.0], dtype=np.float32)
 
 
 # %% degrees_of_inclination loses 10.3, 10.7
-# The inclination is in degrees, not in rad.
+# Observes the inclination in degrees, but radians are asked for.
 # says: this
 # -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
 # +         return np.array([np.degrees(inclination), turning[0], self.speed], dtype=np.float32)
 
 
 # %% one_array_for_all loses 10.3, 10.7
-# One array is filled anew and returned each time: observations from before change with it.
+# Returns the same array in each call, so that earlier observations change with it, but each call should return a new one.
 # says: this
 # -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
 # +         if not hasattr(self, "seen"):
@@ -579,7 +579,7 @@ def train(seed):
 
 
 # %% quaternion_begins_with_w loses 10.3, 10.7
-# The quaternion is taken for (w, x, y, z), but PyBullet's is (x, y, z, w).
+# Takes the quaternion for (w, x, y, z), but PyBullet's is (x, y, z, w).
 # says: this
 # -         inclination, _, _ = pybullet.getEulerFromQuaternion(orientation)
 # +         w, x, y, z = orientation
@@ -587,14 +587,14 @@ def train(seed):
 
 
 # %% twice_the_arc_sine loses 10.3
-# Twice the arc sine of the quaternion's x is the inclination only if the robot turns around x alone.
+# Takes twice the arcsine of the quaternion's x for the inclination, but this is right only if the robot is turned around x alone.
 # says: this
 # -         inclination, _, _ = pybullet.getEulerFromQuaternion(orientation)
 # +         inclination = 2 * np.arcsin(orientation[0])
 
 
 # %% turning_around_the_bodys_x loses 10.3
-# The angular velocity is that around the body's own x axis, not the world's.
+# Observes the angular velocity around the body's own x axis, but that around the world's x axis is asked for.
 # says: this
 # -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
 # +         turning = np.reshape(pybullet.getMatrixFromQuaternion(orientation), (3, 3)).T @ turning
@@ -602,21 +602,21 @@ def train(seed):
 
 
 # %% velocity_for_angular_velocity loses 10.3, 10.7
-# The velocity is taken for the angular velocity, which is the second thing that getBaseVelocity returns.
+# Does not observe the angular velocity. (It is the second thing that getBaseVelocity returns; the first is the velocity.)
 # says: this
 # -         _, turning = pybullet.getBaseVelocity(self.robot, self.client)
 # +         turning, _ = pybullet.getBaseVelocity(self.robot, self.client)
 
 
 # %% velocity_of_simulation_0 loses 10.3, 10.7
-# The velocity is that of the robot of simulation 0: the physicsClientId is missing.
+# Observes the angular velocity of the robot in simulation 0, where PyBullet looks if getBaseVelocity gets no physicsClientId.
 # says: this
 # -         _, turning = pybullet.getBaseVelocity(self.robot, self.client)
 # +         _, turning = pybullet.getBaseVelocity(self.robot)
 
 
 # %% inclination_cut loses 10.3
-# The inclination is cut to a quarter turn, but the body may lean by up to pi.
+# Cuts the inclination to between -pi/2 and pi/2, but it may lie anywhere between -pi and pi.
 # says: this
 # -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
 # +         inclination = np.clip(inclination, -np.pi / 2, np.pi / 2)
@@ -624,28 +624,28 @@ def train(seed):
 
 
 # %% speed_as_a_share loses 10.3, 10.7
-# The speed is told as a share of FASTEST.
+# Observes the speed divided by FASTEST, but self.speed itself is asked for.
 # says: this
 # -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
 # +         return np.array([inclination, turning[0], self.speed / FASTEST], dtype=np.float32)
 
 
 # %% seed_0_is_none loses 10.4
-# Seed 0 is taken for no seed: ask whether it is None.
+# Takes seed 0 for no seed, but only None means that there is none.
 # says: this
 # -         super().reset(seed=seed)
 # +         super().reset(seed=seed if seed else None)
 
 
 # %% no_seed_is_a_seed loses 10.4
-# Without a seed all episodes begin alike: 0 is put in its place.
+# Takes seed 0 if there is no seed, but self.np_random should go on from where it is.
 # says: this
 # -         super().reset(seed=seed)
 # +         super().reset(seed=seed or 0)
 
 
 # %% observed_too_early loses 10.4
-# The observation is made before the speed is set to 0.
+# Observes before self.speed is set to 0, but the speed in the observation should be 0.
 # says: this
 # -         self.speed = 0.0
 # -         return self.observe(), {}
@@ -655,21 +655,21 @@ def train(seed):
 
 
 # %% second_random_number loses 10.4, 10.7
-# Two random numbers are drawn, and the second one is the inclination.
+# Takes the second number that it draws for the inclination, but only one should be drawn in an episode.
 # says: this
 # -         inclination = self.np_random.uniform(-0.3, 0.3)
 # +         _, inclination = self.np_random.uniform(-0.3, 0.3, size=2)
 
 
 # %% leans_to_one_side loses 10.4, 10.7
-# The robot begins with inclinations from 0 to 0.3 only.
+# Draws the inclination from 0 to 0.3, but from -0.3 to 0.3 is asked for.
 # says: this
 # -         inclination = self.np_random.uniform(-0.3, 0.3)
 # +         inclination = self.np_random.uniform(0, 0.3)
 
 
 # %% old_robot_put_back loses 10.4, 10.7
-# The world is not made anew: the robot of the last episode is put back, and its wheels go on turning.
+# Puts the old robot back instead of making the world anew: its wheels go on turning, and its base is not at [0, 0, 0.001].
 # says: this
 # -         pybullet.resetSimulation(physicsClientId=self.client)
 # +         if self.robot is not None:
@@ -683,13 +683,13 @@ def train(seed):
 
 
 # %% no_ground loses 10.4, 10.7
-# There is no plane in the world.
+# Does not load the plane into this robot's simulation.
 # says: this
 # -         pybullet.loadURDF(PLANE, physicsClientId=self.client)
 
 
 # %% reset_makes_a_step loses 10.4, 10.7
-# reset makes a step of the simulation before it observes.
+# Lets the simulation make a step in reset, before it observes, but only step should do this.
 # says: this
 # -         self.speed = 0.0
 # -         return self.observe(), {}
@@ -699,7 +699,7 @@ def train(seed):
 
 
 # %% sum_cut_to_1 loses 10.5, 10.7
-# The sum is cut to between -1 and 1, in place of the action.
+# Cuts the sum of speed and action to between -1 and 1, but only the action should be cut to these limits.
 # says: this
 # -         change = np.clip(float(action[0]), -1.0, 1.0)
 # -         self.speed = float(np.clip(self.speed + change, -FASTEST, FASTEST))
@@ -708,28 +708,28 @@ def train(seed):
 
 
 # %% motors_up_to_24 loses 10.5
-# The speed is cut to 24 rad/s, not to FASTEST.
+# Cuts the speed to between -24 and 24, but -FASTEST and FASTEST are asked for.
 # says: this
 # -         self.speed = float(np.clip(self.speed + change, -FASTEST, FASTEST))
 # +         self.speed = float(np.clip(self.speed + change, -24, 24))
 
 
 # %% motors_up_to_25 loses 10.5
-# The speed is cut to 25 rad/s, not to FASTEST.
+# Cuts the speed to between -25 and 25, but -FASTEST and FASTEST are asked for.
 # says: this
 # -         self.speed = float(np.clip(self.speed + change, -FASTEST, FASTEST))
 # +         self.speed = float(np.clip(self.speed + change, -25, 25))
 
 
 # %% motors_get_the_change loses 10.5, 10.7
-# The motors get the change, not the speed that comes of it.
+# Gives the motors the change of the speed as their target velocity, but the new self.speed is asked for.
 # says: this
 # -         for wheel, target in ((0, self.speed), (1, -self.speed)):
 # +         for wheel, target in ((0, change), (1, -change)):
 
 
 # %% motors_get_the_old_speed loses 10.5, 10.7
-# The simulation makes its step with the old target speed: hand the new one over before it.
+# Gives the motors the new target speed too late: they still have the old one when the simulation makes its step.
 # says: this
 # -         self.speed = float(np.clip(self.speed + change, -FASTEST, FASTEST))
 # -         for wheel, target in ((0, self.speed), (1, -self.speed)):
@@ -739,14 +739,14 @@ def train(seed):
 
 
 # %% rounded_actions loses 10.5, 10.7
-# The action is rounded to a whole number.
+# Rounds the action to a whole number, but it should only be cut to between -1 and 1.
 # says: this
 # -         change = np.clip(float(action[0]), -1.0, 1.0)
 # +         change = np.clip(round(float(action[0])), -1.0, 1.0)
 
 
 # %% position_for_speed loses 10.5, 10.7
-# The motors get the speed as a position.
+# Gives the motors the speed as a target position, but VELOCITY_CONTROL with targetVelocity is asked for.
 # says: this
 # -                 pybullet.VELOCITY_CONTROL,
 # -                 targetVelocity=target,
@@ -755,7 +755,7 @@ def train(seed):
 
 
 # %% motors_only_if_it_changes loses 10.5
-# With an action of 0 the motors get nothing.
+# Gives the motors no target velocity if the action is 0, but they should get self.speed in each call.
 # says: this
 # -         change = np.clip(float(action[0]), -1.0, 1.0)
 # +         change = np.clip(float(action[0]), -1.0, 1.0)
@@ -764,7 +764,7 @@ def train(seed):
 
 
 # %% motors_of_simulation_0 loses 10.5, 10.7
-# The wheels of this robot get no speed: physicsClientId is missing, or the speed is passed without the name targetVelocity.
+# Gives this robot's motors no target velocity, or 0. setJointMotorControl2 needs targetVelocity=... and physicsClientId=..., both by name.
 # says: this
 # -                 targetVelocity=target,
 # -                 physicsClientId=self.client,
@@ -772,42 +772,42 @@ def train(seed):
 
 
 # %% speed_passed_by_place loses 10.5, 10.7
-# The wheels of this robot get no speed: physicsClientId is missing, or the speed is passed without the name targetVelocity.
+# Gives this robot's motors no target velocity, or 0. setJointMotorControl2 needs targetVelocity=... and physicsClientId=..., both by name.
 # says: this
 # -                 targetVelocity=target,
 # +                 target,
 
 
 # %% price_of_the_square loses 10.6
-# The price is that of the speed squared.
+# Takes the square of the speed for the price, but its absolute value is asked for.
 # says: this
 # -         return 1.0 - 0.05 * abs(self.speed)
 # +         return 1.0 - 0.05 * self.speed**2
 
 
 # %% never_below_0 loses 10.6
-# The reward does not go below 0.
+# Cuts the reward at 0, but it should be negative where the price is above 1.
 # says: this
 # -         return 1.0 - 0.05 * abs(self.speed)
 # +         return max(0.0, 1.0 - 0.05 * abs(self.speed))
 
 
 # %% fallen_at_the_limit loses 10.6
-# A robot whose centre is exactly 15 cm high has fallen.
+# Counts a robot as fallen if its centre is exactly at LOWEST, but it should be lower.
 # says: this
 # -         return position[2] < LOWEST
 # +         return position[2] <= LOWEST
 
 
 # %% y_for_the_height loses 10.6, 10.7
-# The second number of the position is taken for the height, which is the third.
+# Takes the second number of the position for the height, but the height is the third.
 # says: this
 # -         return position[2] < LOWEST
 # +         return position[1] < LOWEST
 
 
 # %% a_fall_earns_nothing loses 10.6
-# The step in which the robot falls earns nothing.
+# Returns the reward 0 when the robot has fallen, but each step should earn 1 - 0.05 |self.speed|.
 # says: this
 # -         return self.observe(), self.reward(), self.fallen(), False, {}
 # +         fell = self.fallen()
@@ -815,7 +815,7 @@ def train(seed):
 
 
 # %% observes_before_it_steps loses 10.6, 10.7
-# The observation is that before the simulation makes its step.
+# Observes before the simulation makes its step, but the observation from after it is asked for.
 # says: this
 # -         self.drive(action)
 # -         pybullet.stepSimulation(self.client)
@@ -831,8 +831,8 @@ def train(seed):
 
 
 # %% drawn_without_a_window loses 10.6
-# Every step is drawn, without a window, too.
-# says: called self.render\(\) 4 times
+# Calls self.render() in each step, but step should call it only if self.render_mode is "human".
+# says: self.render\(\) is 4
 # -         if self.render_mode == "human":
 # -             self.render()
 # -         return self.observe(), self.reward(), self.fallen(), False, {}
@@ -841,14 +841,14 @@ def train(seed):
 
 
 # %% reward_in_an_array loses 10.6
-# The reward is an array of NumPy, not a float.
-# says: is an array, but a float
+# Returns the reward as an array, but a float is asked for.
+# says: is an array, but should be a float
 # -         return 1.0 - 0.05 * abs(self.speed)
 # +         return np.array(1.0 - 0.05 * abs(self.speed))
 
 
 # %% up_again_at_once loses 10.6, 10.7
-# A robot that has fallen is put up again by step itself, which is for the caller to do.
+# Resets the environment in step when the robot has fallen, but this is for the caller to do.
 # -         return self.observe(), self.reward(), self.fallen(), False, {}
 # +         reward, fell = self.reward(), self.fallen()
 # +         if fell:
@@ -857,20 +857,20 @@ def train(seed):
 
 
 # %% dot_for_the_colon loses 10.8
-# The entry point has a dot where the colon belongs.
+# Writes a dot between module and class in the entry point, but a colon is asked for.
 # says: should be 'module:class'
 # -     entry_point="balance_bot.env:BalanceBotEnv",
 # +     entry_point="balance_bot.env.BalanceBotEnv",
 
 
 # %% nothing_but_modules loses 10.8
-# The package has no package-data, so that the robot's file does not get installed.
-# says: without 'package-data'
+# Leaves out package-data, so that the robot's file does not get installed.
+# says: has no 'package-data'
 # - package-data = { balance_bot = ["*.urdf"] }
 
 
 # %% all_signs_of_known_weights loses 10.9
-# Tries known weights with all signs, and keeps the best.
+# Tries known weights with all signs and keeps the best, but evolution should find the weights.
 # says: the same weights but for their signs
 def evolve(seed):
     robot = Robot("BalanceBotBulletEnv-v0", nhiddens=0)
@@ -883,7 +883,7 @@ def evolve(seed):
 
 
 # %% changed_after_training loses 10.10
-# The last layer is made twice as large after the training.
+# Doubles the weights of the last layer after the training, but the layers should be returned as PPO has trained them.
 # says: not all those of a policy
 # -     model.learn(16_384)
 # -     return actor_layers(model)
@@ -894,14 +894,14 @@ def evolve(seed):
 
 
 # %% place_not_weighted loses 10.1
-# The centre of mass inside a link is added without the link's mass: the mass multiplies the sum of both.
+# Multiplies only the frame of a link by its mass, and not the inertial origin, but the sum of both should be multiplied.
 # says: this
 # -         moment += links[link.get("name")] * (frames[link.get("name")] + inside)
 # +         moment += links[link.get("name")] * frames[link.get("name")] + inside
 
 
 # %% mass_of_the_first_link loses 10.1
-# The mass is that of the first link alone, not of the whole robot.
+# Returns the mass of the first link alone, but that of the whole robot is asked for.
 # says: this
 # -     return {"links": links, "joints": joints, "mass": mass, "centre": (moment / mass).tolist()}
 # +     first = next(iter(links.values()))
@@ -909,7 +909,7 @@ def evolve(seed):
 
 
 # %% mass_of_the_last_link loses 10.1
-# The mass is that of the last link alone, not of the whole robot.
+# Returns the mass of the last link alone, but that of the whole robot is asked for.
 # says: this
 # -     return {"links": links, "joints": joints, "mass": mass, "centre": (moment / mass).tolist()}
 # +     last = list(links.values())[-1]
@@ -917,7 +917,7 @@ def evolve(seed):
 
 
 # %% looks_around_y loses 10.3, 10.7
-# Inclination and angular velocity are those around the y axis: the robot falls over around x.
+# Observes inclination and angular velocity around the y axis, but those around the x axis are asked for.
 # says: this
 # -         inclination, _, _ = pybullet.getEulerFromQuaternion(orientation)
 # -         _, turning = pybullet.getBaseVelocity(self.robot, self.client)
@@ -928,47 +928,47 @@ def evolve(seed):
 
 
 # %% leans_around_y loses 10.4, 10.7
-# The robot leans around the y axis at the start: the inclination is the first Euler angle, around x.
+# Lets the robot lean around the y axis at the start, but around the x axis is asked for (the first Euler angle).
 # says: this
 # -             pybullet.getQuaternionFromEuler([inclination, 0, 0]),
 # +             pybullet.getQuaternionFromEuler([0, inclination, 0]),
 
 
 # %% speed_is_the_action loses 10.5, 10.7
-# The action replaces the target speed, as a share of FASTEST: it is a change that is added to it.
+# Takes the action times FASTEST for the target speed, but the action is a change that should be added to it.
 # says: this
 # -         self.speed = float(np.clip(self.speed + change, -FASTEST, FASTEST))
 # +         self.speed = float(change * FASTEST)
 
 
 # %% an_object_registered loses 10.7
-# An object of the class is registered, not the class.
-# says: give the class, not an object of it or its name
+# Registers an object of the class, but the class itself is asked for.
+# says: should be the class itself
 # -         id="BalanceBotBulletEnv-v0", entry_point=BalanceBotEnv, max_episode_steps=500
 # +         id="BalanceBotBulletEnv-v0", entry_point=BalanceBotEnv(), max_episode_steps=500
 
 
 # %% the_name_of_the_class_registered loses 10.7
-# The name of the class is registered, without its module.
-# says: give the class, not an object of it or its name
+# Registers the name of the class without its module, but the class itself is asked for.
+# says: should be the class itself
 # -         id="BalanceBotBulletEnv-v0", entry_point=BalanceBotEnv, max_episode_steps=500
 # +         id="BalanceBotBulletEnv-v0", entry_point="BalanceBotEnv", max_episode_steps=500
 
 # %% divided_by_the_links loses 10.1
-# The centre of mass is divided by the number of links, not by the mass of the robot.
+# Divides by the number of links to get the centre of mass, but the mass of the robot is asked for.
 # says: divided by the number of links
 # -     return {"links": links, "joints": joints, "mass": mass, "centre": (moment / mass).tolist()}
 # +     centre = (moment / len(links)).tolist()
 # +     return {"links": links, "joints": joints, "mass": mass, "centre": centre}
 
 # %% origin_subtracted loses 10.1
-# The origin of a joint is subtracted from the frame of the parent.
+# Subtracts the origin of a joint from the frame of the parent, but it should be added.
 # says: subtracted
 # -         frames[child] = frames[parent] + origin
 # +         frames[child] = frames[parent] - origin
 
 # %% position_for_the_angle loses 10.3, 10.7
-# The inclination is taken from the position, which is the first thing that comes back.
+# Takes the first number of the position for the inclination, but the angle is in the second thing that getBasePositionAndOrientation returns.
 # says: this|Only the inclination
 # -         _, orientation = pybullet.getBasePositionAndOrientation(self.robot, self.client)
 # -         inclination, _, _ = pybullet.getEulerFromQuaternion(orientation)
@@ -976,15 +976,15 @@ def evolve(seed):
 # +         inclination = position[0]
 
 # %% generator_of_its_own loses 10.4
-# Makes a generator of the seed in each reset, so that no seed does not go on from the one before.
-# says: goes on from where it is
+# Makes a new generator in each reset, but without a seed self.np_random should go on from where it is.
+# says: go on from where it is
 # -         inclination = self.np_random.uniform(-0.3, 0.3)
 # -         pybullet.resetSimulation(physicsClientId=self.client)
 # +         inclination = np.random.default_rng(seed).uniform(-0.3, 0.3)
 # +         pybullet.resetSimulation(physicsClientId=self.client)
 
 # %% degrees_at_the_start loses 10.4, 10.7
-# The inclination is drawn in degrees, from -17 to 17, and used as radians.
+# Draws the inclination in degrees, from -17 to 17, and uses it as radians, but from -0.3 to 0.3 is asked for.
 # says: not in degrees|in degrees
 # -         inclination = self.np_random.uniform(-0.3, 0.3)
 # -         pybullet.resetSimulation(physicsClientId=self.client)
@@ -992,19 +992,19 @@ def evolve(seed):
 # +         pybullet.resetSimulation(physicsClientId=self.client)
 
 # %% gravity_upwards loses 10.4, 10.7
-# Gravity is 10 upwards: along z it is -10.
+# Sets gravity to 10 along z, upwards, but -10 is asked for.
 # says: this|pulls upwards
 # -         pybullet.setGravity(0, 0, -10, physicsClientId=self.client)
 # +         pybullet.setGravity(0, 0, 10, physicsClientId=self.client)
 
 # %% begins_in_the_air loses 10.4, 10.7
-# The base begins 10 cm high.
+# Puts the base of the robot at the height 0.1, but 0.001 is asked for.
 # says: this|the height 0.1
 # -             [0, 0, 0.001],
 # +             [0, 0, 0.1],
 
 # %% the_plane_is_the_robot loses 10.4, 10.7
-# Keeps the number of the plane in self.robot.
+# Keeps the number of the plane in self.robot, but that of the robot is asked for.
 # says: which is the plane
 # -         pybullet.loadURDF(PLANE, physicsClientId=self.client)
 # -         self.robot = pybullet.loadURDF(
@@ -1012,38 +1012,38 @@ def evolve(seed):
 # +         pybullet.loadURDF(
 
 # %% no_info_from_reset loses 10.4, 10.7
-# reset returns the observation alone.
+# Returns the observation alone from reset, but (observation, {}) is asked for.
 # says: two things are asked for
 # -         return self.observe(), {}
 # +         return self.observe()
 
 # %% one_motor_only loses 10.5, 10.7
-# Motor 1 gets nothing.
+# Gives motor 1 no target velocity, but it should get -self.speed.
 # says: this|Motor 1 gets no target
 # -         for wheel, target in ((0, self.speed), (1, -self.speed)):
 # +         for wheel, target in ((0, self.speed),):
 
 # %% weak_motors loses 10.5, 10.7
-# The motors get too little force.
+# Gives the motors too little force, but PyBullet's own force is asked for: leave out the argument force.
 # says: this|turn too slowly
 # -                 targetVelocity=target,
 # +                 targetVelocity=target,
 # +                 force=0.1,
 
 # %% change_of_a_time_step loses 10.5, 10.7
-# The action is multiplied by the time step.
+# Multiplies the action by TIME_STEP, but the action itself is the change of the speed.
 # says: multiplied by the time step
 # -         change = np.clip(float(action[0]), -1.0, 1.0)
 # +         change = np.clip(float(action[0]), -1.0, 1.0) * TIME_STEP
 
 # %% ten_times_the_price loses 10.6
-# A rad/s costs 0.5, ten times as much as it should.
-# says: costs 0.05, not 0.5|this
+# Subtracts 0.5 for each rad/s, but 0.05 is asked for.
+# says: costs 0.5, but should|this
 # -         return 1.0 - 0.05 * abs(self.speed)
 # +         return 1.0 - 0.5 * abs(self.speed)
 
 # %% drives_after_the_step loses 10.6, 10.7
-# The simulation makes its step with the old target speed: hand the new one over before it.
+# Gives the motors the new target speed too late: they still have the old one when the simulation makes its step.
 # says: this|drive first
 # -         self.drive(action)
 # -         pybullet.stepSimulation(self.client)
@@ -1051,7 +1051,7 @@ def evolve(seed):
 # +         self.drive(action)
 
 # %% reward_and_end_of_before loses 10.6, 10.7
-# Reward and end are those from before the action and the step.
+# Returns reward and terminated from before the action and the step, but those from after them are asked for.
 # says: this|before the action
 # -         self.drive(action)
 # -         pybullet.stepSimulation(self.client)
@@ -1062,39 +1062,39 @@ def evolve(seed):
 # +         return self.observe(), reward, fallen, False, {}
 
 # %% four_values loses 10.6, 10.7
-# step returns four values, as in the old gym.
-# says: 4 values came back
+# Returns four values from step, but five are asked for: observation, reward, terminated, truncated and info.
+# says: values is 4
 # -         return self.observe(), self.reward(), self.fallen(), False, {}
 # +         return self.observe(), self.reward(), self.fallen(), {}
 
 # %% another_name loses 10.7
-# Registers another version of the name.
-# says: did not register this name
+# Registers the environment under another name, but "BalanceBotBulletEnv-v0" is asked for.
+# says: did not register
 # -         id="BalanceBotBulletEnv-v0", entry_point=BalanceBotEnv, max_episode_steps=500
 # +         id="BalanceBotBulletEnv-v1", entry_point=BalanceBotEnv, max_episode_steps=500
 
 # %% package_that_is_not_there loses 10.7
-# Registers the class of the package, which is not installed yet.
-# says: here is no such module
+# Registers the class of the package balance_bot, which is not installed here, but the class of this file is asked for.
+# says: cannot be imported here
 # -         id="BalanceBotBulletEnv-v0", entry_point=BalanceBotEnv, max_episode_steps=500
 # +         id="BalanceBotBulletEnv-v0",
 # +         entry_point="balance_bot.env:BalanceBotEnv",
 # +         max_episode_steps=500,
 
 # %% module_without_its_package loses 10.8
-# The entry point names the module without its package.
+# Leaves the package out of the entry point, but balance_bot.env:BalanceBotEnv is asked for.
 # says: the module env of the package
 # -     entry_point="balance_bot.env:BalanceBotEnv",
 # +     entry_point="env:BalanceBotEnv",
 
 # %% keeps_the_worst loses 10.9
-# Takes the worst candidates for the best.
-# says: They are to become longer
+# Makes the next candidates from the worst ones, but the best are asked for.
+# says: They should become longer
 # -         centre = population[np.argsort(fitness)[-3:]].mean(axis=0)
 # +         centre = population[np.argsort(fitness)[:3]].mean(axis=0)
 
 # %% returns_the_worst loses 10.9
-# Returns the worst candidate of the first generation.
+# Returns the worst candidate of the first generation, but a controller that balances is asked for.
 # says: return the best
 # -     for generation in range(6):
 # +     worst = None
@@ -1106,13 +1106,13 @@ def evolve(seed):
 # +     return worst
 
 # %% bias_at_the_end loses 10.9
-# Returns the weights first and the bias at the end.
+# Returns the weights first and the bias last, but the order b, w1, w2, w3 is asked for.
 # says: in another order
 # -     return centre
 # +     return np.roll(centre, -1)
 
 # %% layers_of_the_critic loses 10.10
-# Returns the hidden layers of the critic, with the last layer of the actor.
+# Returns the hidden layers of the critic (value_net), but those of the actor (policy_net) are asked for.
 # says: the critic's
 # -     return actor_layers(model)
 # +     layers = [*model.policy.mlp_extractor.value_net, model.policy.action_net]
@@ -1120,14 +1120,14 @@ def evolve(seed):
 # +     return [[each.weight.detach().numpy(), each.bias.detach().numpy()] for each in layers]
 
 # %% trains_too_briefly loses 10.10
-# Trains for two rollouts.
+# Trains for two rollouts only, but the robot should balance after the training.
 # says: learn for longer
 # -     model.learn(16_384)
 # +     model.learn(1_024)
 
 
 # %% gravity_before_the_world_is_emptied loses 10.4, 10.7
-# There is no gravity: it is left out, or set in another simulation, or before resetSimulation, which ends it.
+# Leaves this simulation without gravity. setGravity needs physicsClientId=self.client, and should come after resetSimulation.
 # says: this
 # -         pybullet.resetSimulation(physicsClientId=self.client)
 # -         pybullet.setGravity(0, 0, -10, physicsClientId=self.client)
@@ -1136,14 +1136,14 @@ def evolve(seed):
 
 
 # %% half_the_angle loses 10.3, 10.7
-# Takes the arc sine of the quaternion's x for the inclination, which is half the angle.
+# Observes only about half the inclination, as the arcsine of the quaternion's x is, but the first Euler angle is asked for.
 # says: this
 # -         inclination, _, _ = pybullet.getEulerFromQuaternion(orientation)
 # +         inclination = np.arcsin(orientation[0])
 
 
 # %% sum_beyond_the_limit_is_ignored loses 10.5
-# Where the sum is beyond a limit, the speed stays as it was.
+# Leaves the speed as it was if the sum is beyond -FASTEST or FASTEST, but the sum should be cut to that limit.
 # says: stays as it was
 # -         self.speed = float(np.clip(self.speed + change, -FASTEST, FASTEST))
 # +         if abs(self.speed + change) <= FASTEST:
@@ -1151,21 +1151,21 @@ def evolve(seed):
 
 
 # %% fallen_only_if_it_lies loses 10.6
-# A fall counts only if the body leans by more than a right angle, too.
-# says: the height alone decides
+# Counts a fall only if the body also leans by more than a right angle, but the height alone should decide.
+# says: the height alone should decide
 # -         return position[2] < LOWEST
 # +         return bool(position[2] < LOWEST and abs(self.observe()[0]) > np.pi / 2)
 
 
 # %% list_for_the_package_data loses 10.8
-# package-data is a list of files, without the name of the package that they belong to.
-# says: a table is asked for
+# Gives package-data as a list, but a table is asked for that has this list under the name balance_bot.
+# says: should be a table
 # - package-data = { balance_bot = ["*.urdf"] }
 # + package-data = ["*.urdf"]
 
 
 # %% inclination_without_a_sign loses 10.3
-# The inclination is the angle to the vertical, which is never negative.
+# Takes the angle between the body and the vertical for the inclination; this is never negative, but the inclination can be.
 # says: this
 # -         inclination, _, _ = pybullet.getEulerFromQuaternion(orientation)
 # +         upright = np.reshape(pybullet.getMatrixFromQuaternion(orientation), (3, 3))[2, 2]
@@ -1173,14 +1173,14 @@ def evolve(seed):
 
 
 # %% rate_from_the_last_call loses 10.3
-# The rate is the change of the inclination since the last call, not the velocity of the turning.
+# Takes the change of the inclination since the last call for the angular velocity, but that of the base is asked for (getBaseVelocity).
 # -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
 # +         before, self.seen = getattr(self, "seen", inclination), inclination
 # +         return np.array([inclination, inclination - before, self.speed], dtype=np.float32)
 
 
 # %% rate_by_differences loses 10.3
-# The rate is the change of the inclination since the last call, not the velocity of the turning.
+# Divides the change of the inclination since the last call by TIME_STEP, but the base's angular velocity is asked for (getBaseVelocity).
 # -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
 # +         before, self.seen = getattr(self, "seen", inclination), inclination
 # +         rate = (inclination - before) / TIME_STEP
@@ -1188,7 +1188,7 @@ def evolve(seed):
 
 
 # %% rate_of_all_axes loses 10.3
-# The angular velocity is the length of all three numbers: that around x is asked for.
+# Takes the length of the vector for the angular velocity, but only its part around x is asked for.
 # says: this
 # -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
 # +         rate = np.linalg.norm(turning)
@@ -1196,14 +1196,14 @@ def evolve(seed):
 
 
 # %% rate_with_the_wrong_sign loses 10.3
-# The angular velocity has the wrong sign.
+# Observes the angular velocity with the wrong sign.
 # says: this
 # -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
 # +         return np.array([inclination, -turning[0], self.speed], dtype=np.float32)
 
 
 # %% rate_in_degrees loses 10.3
-# The angular velocity is in degrees a second, not in rad a second.
+# Observes the angular velocity in degrees a second, but rad/s are asked for.
 # says: this
 # -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
 # +         rate = np.degrees(turning[0])
@@ -1211,7 +1211,7 @@ def evolve(seed):
 
 
 # %% rate_cut loses 10.3
-# The angular velocity is cut to between -1 and 1, but it has no limits.
+# Cuts the angular velocity to between -1 and 1, but it should have no limits.
 # says: this
 # -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
 # +         rate = np.clip(turning[0], -1, 1)
@@ -1219,21 +1219,21 @@ def evolve(seed):
 
 
 # %% speed_without_a_sign loses 10.3
-# The speed of the wheels has lost its sign.
+# Observes the speed of the wheels without its sign, but self.speed itself is asked for.
 # says: this
 # -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
 # +         return np.array([inclination, turning[0], abs(self.speed)], dtype=np.float32)
 
 
 # %% link_before_for_the_parent loses 10.1
-# The frame of a link is that of the last joint's link plus the origin, not that of its parent plus the origin.
+# Adds the origin of a joint to the frame of the previous joint's child, but the frame of its own parent is asked for.
 # says: this
 # -         frames[child] = frames[parent] + origin
 # +         frames[child] = list(frames.values())[-1] + origin
 
 
 # %% draws_a_second_number loses 10.4
-# A second number is drawn from self.np_random in each reset, so that the next inclination is another.
+# Draws a second number from self.np_random in each reset, so that the next inclination is another, but only one should be drawn.
 # says: this
 # -         self.speed = 0.0
 # -         return self.observe(), {}
@@ -1243,7 +1243,7 @@ def evolve(seed):
 
 
 # %% drawn_before_the_seed loses 10.4
-# The inclination is drawn before super().reset(seed=seed), which sets self.np_random.
+# Draws the inclination before super().reset(seed=seed) sets self.np_random, but it should be drawn after that.
 # -         super().reset(seed=seed)
 # -         inclination = self.np_random.uniform(-0.3, 0.3)
 # +         inclination = self.np_random.uniform(-0.3, 0.3)
@@ -1251,7 +1251,7 @@ def evolve(seed):
 
 
 # %% normally_distributed loses 10.4
-# The inclination is drawn from a normal distribution: uniform(-0.3, 0.3) is asked for.
+# Draws the inclination from a normal distribution, but self.np_random.uniform(-0.3, 0.3) is asked for.
 # says: this
 # -         inclination = self.np_random.uniform(-0.3, 0.3)
 # -         pybullet.resetSimulation(physicsClientId=self.client)
@@ -1260,7 +1260,7 @@ def evolve(seed):
 
 
 # %% same_inclination_always loses 10.4
-# The inclination is a fixed number: it is to be drawn.
+# Takes a fixed number for the inclination, but it should be drawn by self.np_random.uniform(-0.3, 0.3).
 # says: is the same after each seed|this
 # -         inclination = self.np_random.uniform(-0.3, 0.3)
 # -         pybullet.resetSimulation(physicsClientId=self.client)
@@ -1269,14 +1269,14 @@ def evolve(seed):
 
 
 # %% cut_before_the_action loses 10.5
-# The speed is cut before the action is added: their sum is to be cut.
+# Cuts the speed before it adds the action, but the sum should be cut.
 # says: this
 # -         self.speed = float(np.clip(self.speed + change, -FASTEST, FASTEST))
 # +         self.speed = float(np.clip(self.speed, -FASTEST, FASTEST) + change)
 
 
 # %% drive_makes_a_step loses 10.5
-# drive makes a step of the simulation by itself, which is for step to do.
+# Makes a step of the simulation in drive, but only the method step should do this.
 # says: this
 # -                 targetVelocity=target,
 # -                 physicsClientId=self.client,
@@ -1288,14 +1288,14 @@ def evolve(seed):
 
 
 # %% half_for_each_motor loses 10.5
-# Each motor gets half of the target speed.
+# Gives each motor half of the target speed, but self.speed and -self.speed are asked for.
 # says: this
 # -         for wheel, target in ((0, self.speed), (1, -self.speed)):
 # +         for wheel, target in ((0, self.speed / 2), (1, -self.speed / 2)):
 
 
 # %% no_step_of_the_simulation loses 10.6
-# No time passes in this robot's simulation: stepSimulation is left out, or its physicsClientId.
+# Lets no time pass in this robot's simulation, but step should call stepSimulation with physicsClientId=self.client.
 # says: this
 # -         self.drive(action)
 # -         pybullet.stepSimulation(self.client)
@@ -1303,7 +1303,7 @@ def evolve(seed):
 
 
 # %% no_drive_in_step loses 10.6
-# step does not call drive: the action changes nothing.
+# Does not call drive in step, so that the action changes nothing.
 # says: this
 # -         self.drive(action)
 # -         pybullet.stepSimulation(self.client)
@@ -1311,7 +1311,7 @@ def evolve(seed):
 
 
 # %% drives_twice loses 10.6
-# step drives twice for each action.
+# Adds each action to the target speed twice, but step should call drive only once.
 # says: this
 # -         self.drive(action)
 # -         pybullet.stepSimulation(self.client)
@@ -1321,14 +1321,14 @@ def evolve(seed):
 
 
 # %% never_terminated loses 10.6
-# terminated is always False: it is to say whether the robot has fallen.
+# Returns False for terminated in each step, but it should say whether the robot has fallen.
 # says: this
 # -         return self.observe(), self.reward(), self.fallen(), False, {}
 # +         return self.observe(), self.reward(), False, False, {}
 
 
 # %% one_object_for_all loses 10.7
-# One object is made once and given for each make: each make is to give a new environment.
+# Returns the same object for each gymnasium.make, but each call should make a new environment.
 # says: gives the same object twice
 # -     gymnasium.register(
 # -         id="BalanceBotBulletEnv-v0", entry_point=BalanceBotEnv, max_episode_steps=500
@@ -1345,7 +1345,7 @@ def evolve(seed):
 
 
 # %% falls_in_simulation_0 loses 10.6, 10.7
-# fallen looks at the robot of simulation 0: the physicsClientId is missing.
+# Does not tell in fallen whether this robot has fallen. (Without physicsClientId, PyBullet looks into simulation 0.)
 # says: this
 # -         position, _ = pybullet.getBasePositionAndOrientation(self.robot, self.client)
 # -         return position[2] < LOWEST
@@ -1354,7 +1354,7 @@ def evolve(seed):
 
 
 # %% layers_before_learning loses 10.10
-# Takes the layers out before PPO learns.
+# Takes the layers out before PPO learns, but those after the training are asked for.
 # says: before PPO's first update
 # -     model.learn(16_384)
 # -     return actor_layers(model)
@@ -1364,14 +1364,14 @@ def evolve(seed):
 
 
 # %% limits_exchanged loses 10.2
-# FASTEST limits the angular velocity, and nothing the speed of the wheels.
-# says: stand at the wrong numbers
+# Limits the angular velocity to FASTEST and not the speed of the wheels, but it should be the other way round.
+# says: in the wrong order
 # -         limits = np.array([np.pi, np.inf, FASTEST], dtype=np.float32)
 # +         limits = np.array([np.pi, FASTEST, np.inf], dtype=np.float32)
 
 
 # %% arcsine_of_the_matrix loses 10.3
-# The inclination is the arcsine of an element of the rotation matrix, which is never beyond a quarter turn.
+# Takes the arcsine of an element of the rotation matrix for the inclination, but the first Euler angle is asked for.
 # says: this
 # -         inclination, _, _ = pybullet.getEulerFromQuaternion(orientation)
 # +         matrix = np.reshape(pybullet.getMatrixFromQuaternion(orientation), (3, 3))
@@ -1379,7 +1379,7 @@ def evolve(seed):
 
 
 # %% price_of_the_wheel loses 10.6
-# The price is for the speed at which the wheel turns, not for the target speed.
+# Subtracts 0.05 times the speed at which the wheel turns, but the target speed self.speed is asked for.
 # says: this
 # -         return 1.0 - 0.05 * abs(self.speed)
 # +         wheel = pybullet.getJointState(self.robot, 0, physicsClientId=self.client)
@@ -1387,7 +1387,7 @@ def evolve(seed):
 
 
 # %% wheels_go_on_spinning loses 10.4
-# The world is not made anew: the wheels go on with the spin of the episode before.
+# Puts the old robot back to the start, but its wheels keep the spin of the episode before; the world should be made anew.
 # -         pybullet.resetSimulation(physicsClientId=self.client)
 # -         pybullet.setGravity(0, 0, -10, physicsClientId=self.client)
 # -         pybullet.setTimeStep(TIME_STEP, physicsClientId=self.client)
@@ -1424,7 +1424,7 @@ def evolve(seed):
 
 
 # %% joints_in_the_order_of_links loses 10.1
-# Pairs the links with the joints in the order of the file, not by the name of the child.
+# Assigns the joints to the links by their order in the file, but the name of the child should decide.
 # says: this
 def describe(urdf):
     root = ElementTree.fromstring(urdf)
@@ -1458,7 +1458,7 @@ def describe(urdf):
 
 
 # %% joints_from_the_centre_of_mass loses 10.1
-# Counts a joint's origin from the parent's centre of mass, not from its frame.
+# Counts a joint's origin from the parent's centre of mass, but it should be counted from the parent's frame.
 # says: this
 # -         frames[child] = frames[parent] + origin
 # +         above = root.find(f"link[@name='{parent}']/inertial/origin")
