@@ -89,44 +89,55 @@ def mistaken_progress(distance: np.ndarray, duration: float) -> dict:
         lambda way, time: way / time,
         way={
             "": nearer,
-            "Progress is positive when the robot goes away: take the distance before the step "
-            "minus the distance after it.": -nearer,
-            "Going away counts as 0, but it is negative progress.": np.maximum(nearer, 0.0),
-            "Going away counts as much as coming nearer, but it is negative progress.":
+            "The sign is wrong: it is reversed, but coming nearer should be positive.": -nearer,
+            "Going away counts as 0, but it should be negative.": np.maximum(nearer, 0.0),
+            "Going away counts as much as coming nearer, but it should be negative.":
             np.abs(nearer),
-            "The way is measured from the start: take the distance before each step.":
+            "The way of each step is measured from the start of the episode, but should be "
+            "measured from the distance just before the step.":
             distance[0] - distance[1:],
-            "The way is measured to the end: take the distance after each step.":
+            "The way of each step is measured to the end of the episode, but should be measured "
+            "to the distance just after the step.":
             distance[:-1] - distance[-1],
-            "The mean way of all steps is taken: each step has its own.":
+            "Each step has the mean way of all steps, but should have its own.":
             np.full(len(nearer), nearer.mean()),
-            "The progress of a step is taken over two steps, as np.gradient does: take the "
-            "difference of neighbours.": two[1:],
-            "The progress of a step is taken over two steps, as np.gradient does: take the "
-            "difference of the neighbours.": two[:-1],
-            "Each step has the progress of the next one.": np.append(nearer[1:], 0.0),
-            "Each step has the progress of the one before.": np.append(0.0, nearer[:-1]),
-            "The speeds are added up over the steps.": np.cumsum(nearer),
-            "The distance itself is divided; the difference of two distances is asked for.":
+            "The way of a step is the mean of two steps, as np.gradient makes it, but the "
+            "difference of two neighbours is asked for.": two[1:],
+            "The way of a step is the mean of two steps, as np.gradient makes it, but the "
+            "difference of the two neighbours is asked for.": two[:-1],
+            "Each step has the progress of the step after it, and the last one has 0.":
+            np.append(nearer[1:], 0.0),
+            "Each step has the progress of the step before it, and the first one has 0.":
+            np.append(0.0, nearer[:-1]),
+            "The progress is added up from step to step, but each step should have its own.":
+            np.cumsum(nearer),
+            "The distance after each step is taken, but the difference of two distances is asked "
+            "for.":
             distance[1:],
-            "The first step is missing, and the last goes back to the start (np.roll).":
+            "The first step is missing, and the last one goes from the end back to the start, as "
+            "np.roll makes it.":
             np.append(nearer[1:], distance[-1] - distance[0]),
-            "The first step is missing: T + 1 distances make T steps.": nearer[1:],
-            "The last step is missing: T + 1 distances make T steps.": nearer[:-1],
-            "The start is no step: T + 1 distances make T steps.": np.append(0.0, nearer),
+            "The first step is missing, but T + 1 distances make T steps.": nearer[1:],
+            "The last step is missing, but T + 1 distances make T steps.": nearer[:-1],
+            "There is a 0 for the start, but T + 1 distances make only T steps.":
+            np.append(0.0, nearer),
         },
         time={
             "": duration,
-            "The duration of a step is left out.": 1.0,
-            "The duration multiplies; it divides.": 1 / duration,
-            "Use `duration`, not the 0.0165 s of PyBullet.": 0.0165,
-            "Divide by the duration of a step, not by the time since the start.":
+            "The division by the duration of a step is left out.": 1.0,
+            "The way is multiplied by the duration, but should be divided by it.": 1 / duration,
+            "A step of 0.0165 s is used, but `duration` is asked for.": 0.0165,
+            "The way is divided by the time since the start, but should be divided by the "
+            "duration of a step.":
             duration * np.arange(1, len(nearer) + 1),
-            "Divide by the duration of a step, not by that of the episode.":
+            "The way is divided by the duration of the episode, but should be divided by that of "
+            "a step.":
             duration * len(nearer),
-            "The duration is squared: divide by it once.": duration**2,
-            "Divide by the duration alone, not by the distance, too.": duration * distance[:-1],
-            "Metres per second are asked for, not kilometres per hour.": duration / 3.6,
+            "The way is divided by the square of the duration, but should be divided by the "
+            "duration.": duration**2,
+            "The way is divided by the distance, too, but should be divided by the duration "
+            "alone.": duration * distance[:-1],
+            "This is in kilometres per hour, but metres per second are asked for.": duration / 3.6,
         },
     )  # fmt: skip
 
@@ -141,19 +152,19 @@ def why_standing(one: dict, t: int) -> str:
     if robot in ("Hopper", "Walker2D", "HalfCheetah"):
         facts.append((pitch < 1, f"|pitch| {pitch:.4g}", "1", "below"))
     if robot == "HalfCheetah":
-        down = "on" if one["touching"][t] else "off"
-        facts.append((down == "off", f"shin and thigh {down}", "the floor", ""))
+        down = "1" if one["touching"][t] else "0"
+        facts.append((down == "0", f"touching is {down}", "(1 means on shin or thigh)", ""))
     fallen = [fact for fact in facts if not fact[0]]
     told = [
         f"{what} is {'' if holds else 'not '}{side} {limit}" if side else f"{what} {limit}"
         for holds, what, limit, side in fallen or facts
     ]
-    only = "; the rest of what is recorded does not matter" if robot in ("Ant", "Humanoid") else ""
+    only = "; nothing else matters for this robot" if robot in ("Ant", "Humanoid") else ""
     if one["touching"][t] and robot in ("Hopper", "Walker2D"):
-        only = "; what touches the floor matters for a HalfCheetah alone"
+        only = "; `touching` matters for a HalfCheetah only"
     verdict = "has fallen" if fallen else "has not fallen"
     exact = [limit for _, what, limit, _ in fallen if what.split()[-1] == limit]
-    edge = f" Exactly {exact[0]} is not enough: compare with `>` or `<`." if exact else ""
+    edge = f" Exactly {exact[0]} counts as fallen: compare with `>` or `<`." if exact else ""
     return f"In step {t} the {robot} {verdict}: {' and '.join(told)}{only}.{edge}"
 
 
@@ -166,42 +177,50 @@ def mistaken_bonus(one: dict) -> dict:
     high, leans = one["height"] > low, robot not in ("Ant", "Humanoid")
     cheetah = robot == "HalfCheetah"
     stands = {
-        "A robot that leans back does not count: the pitch may be negative, take abs(pitch).":
+        "A pitch of -1 or less counts as upright, but abs(pitch) should be below 1.":
         high & ((one["pitch"] < 1) | (not leans)) & (off | (not cheetah)),
-        "A robot that leans forward is forgotten: take abs(pitch).":
+        "A pitch of 1 or more counts as upright, but abs(pitch) should be below 1.":
         high & ((one["pitch"] > -1) | (not leans)) & (off | (not cheetah)),
-        "A robot that has fallen once counts as fallen ever after: judge each step by itself.":
+        "A robot that has fallen once counts as fallen in all later steps, but each step should "
+        "be judged by itself.":
         np.logical_and.accumulate(wanted > 0),
-        f"The pitch is left out: a {robot} with |pitch| of 1 or more has fallen.":
+        f"The pitch is left out, but the {robot} with |pitch| of 1 or more has fallen.":
         high & (off | (not cheetah)),
-        f"The height is left out: a {robot} at {low} or below has fallen.": upright | (not leans),
-        "The touching is left out: a HalfCheetah with shin or thigh on the floor has fallen.":
+        f"The {'touching' if cheetah else 'height'} is left out, but the {robot} "
+        f"{'on shin or thigh' if cheetah else f'at {low} or below'} has fallen.":
+        upright | (not leans),
+        f"The {'touching' if cheetah else 'pitch'} "
+        f"{'is left out, but should be 0' if cheetah else 'counts, but should not matter'} "
+        f"for the {robot}.":
         upright & high,
-        f"One of the conditions is enough to fall; your {robot} falls only if both hold.":
+        f"The {robot} counts as fallen only if both conditions are broken, but one is enough.":
         (high | upright) if leans and not cheetah else (upright | off),
-        f"The pitch does not matter for a {robot}.": high & upright,
-        f"What touches the floor does not matter for a {robot}.":
+        f"The pitch counts, but should not matter for the {robot}.": high & upright,
+        f"The touching counts, but should not matter for the {robot}.":
         (wanted > 0) & off,
-        "touching is the wrong way round: 1 means that shin or thigh was on the floor.":
+        "`touching` counts the wrong way round: 1 should mean that shin or thigh was on the "
+        "floor.":
         upright & ~off,
-        "The pitch is in radians, as its limit is: do not convert it to degrees.":
+        "Only a pitch near 0 counts as upright, as with a limit of 1 degree, but 1 radian is "
+        "asked for.":
         high & ((np.abs(np.degrees(one["pitch"])) < 1) | (not leans)) & (off | (not cheetah)),
         "Height and pitch are exchanged.":
         (one["pitch"] > low) & ((np.abs(one["height"]) < 1) | (not leans)),
-        "The limit itself counts as standing: compare with `>` and `<`, not with `>=` and `<=`.":
+        "A limit itself counts as standing, but `>` and `<` are asked for, not `>=` and `<=`.":
         (one["height"] >= low) & ((np.abs(one["pitch"]) <= 1) | (not leans))
         & (off | (not cheetah)),
-        "The limit of the height counts as standing: compare with `>`, not `>=`.":
+        "A height exactly at its limit counts as standing, but `>` is asked for, not `>=`.":
         (one["height"] >= low) & (upright | (not leans)) & (off | (not cheetah)),
-        "A pitch of exactly 1 counts as upright: compare with `<`, not `<=`.":
+        "A pitch of exactly 1 or -1 counts as upright, but `<` is asked for, not `<=`.":
         high & ((np.abs(one["pitch"]) <= 1) | (not leans)) & (off | (not cheetah)),
-        "One fall makes all steps count as fallen: judge each step by itself.":
+        "All steps count as fallen, but each step should be judged by itself.":
         np.full(steps, bool((wanted > 0).all())),
-        "All steps are judged alike here: each stands for itself.": np.full(steps, True),
-        "The comparison is the wrong way round: the fallen stand, and those who stand have "
+        "All steps count as standing, but each step should be judged by itself.":
+        np.full(steps, True),
+        "The comparison is the wrong way round: the fallen count as standing, and the standing as "
         "fallen.": wanted < 0,
     } | {
-        f"This is the limit of {other}: the table has {low} for {robot}.":
+        f"The height is compared with the limit of {other}, but the table has {low} for {robot}.":
         (one["height"] > limit) & (upright | (not leans))
         for other, limit in (("the Ant", 0.26), ("the Humanoid", 0.78), ("the Hopper", 0.8))
         if limit != low and not cheetah
@@ -212,10 +231,17 @@ def mistaken_bonus(one: dict) -> dict:
         stands={"": wanted > 0, **stands},
         paid={
             "": (bonus, -1.0),
-            "The fallen get 0, but they pay 1.": (bonus, 0.0),
-            "The fallen pay the bonus of their robot; all pay 1.": (bonus, -bonus),
-            f"The bonus of a {robot} is {bonus:g}, not {3 - bonus:g}.": (3 - bonus, -1.0),
-            "Neither the bonus nor the price of a fall is as in the table.": (1.0, 0.0),
+            "The fallen get 0, but -1 is asked for.": (bonus, 0.0),
+            "The fallen get minus the bonus of their robot, but all of them should get -1.": (
+                bonus,
+                -bonus,
+            ),
+            f"The bonus of the {robot} is {3 - bonus:g}, but {bonus:g} is asked for.": (
+                3 - bonus,
+                -1.0,
+            ),
+            "Those who stand get 1 and the fallen 0, but the bonus of the table and -1 are asked "
+            "for.": (1.0, 0.0),
         },
     )
 
@@ -227,7 +253,7 @@ def why_electricity(one: dict, t: int) -> str:
     price = f"4.25 * ({price})" if one["robot"] == "Humanoid" else price
     return (
         f"In step {t}, the mean |action * speed| of the {n} joints is {work:.5g} and their mean "
-        f"squared action {effort:.5g}: that makes {price}."
+        f"squared action {effort:.5g}, so it should be {price}."
     )
 
 
@@ -235,62 +261,66 @@ def mistaken_electricity(one: dict) -> dict:
     """What slips make of the cost: sentence -> array."""
     actions, speeds, joints = one["actions"], one["speeds"], one["actions"].shape[1]
     product, squares, zero = actions * speeds, actions**2, 0 * actions[:, 0]
-    humanoid, six = one["robot"] == "Humanoid", "by 6, however many joints there are: take their"
+    humanoid, six = one["robot"] == "Humanoid", "by 6, however many joints there are, but their"
     work = {
         "": np.abs(product).mean(axis=1),
-        "Braking is paid for: the absolute value of the work counts, joint by joint.": product.mean(
+        "Braking is paid for: action * speed keeps its sign, but |action * speed| of each joint "
+        "is asked for.": product.mean(axis=1),
+        "The absolute value is taken of the mean over the joints, but |action * speed| of each "
+        "joint should come first.": np.abs(product.mean(axis=1)),
+        "The work is added up over the joints, but their mean is asked for.": np.abs(product).sum(
             axis=1
         ),
-        "Take |action * speed| of each joint first, then the mean.": np.abs(product.mean(axis=1)),
-        "The work is added up over the joints: take their mean.": np.abs(product).sum(axis=1),
-        f"The work is divided {six} mean.": np.abs(product).sum(axis=1) / 6,
-        "The work of the joint that does most is taken: take the mean over the joints.": np.abs(
-            product
-        ).max(axis=1),
-        "The median of the work is taken: take the mean over the joints.": np.median(
+        f"The sum of the work is divided {six} mean is asked for.": np.abs(product).sum(axis=1) / 6,
+        "The work of the joint that does most is taken, but the mean over the joints is asked "
+        "for.": np.abs(product).max(axis=1),
+        "The median of the work is taken, but the mean over the joints is asked for.": np.median(
             np.abs(product), axis=1
         ),
-        "The work is |action * speed|; the actions are left out of it.": np.abs(speeds).mean(
-            axis=1
-        ),
-        "The work is |action * speed|; the speeds are left out of it.": np.abs(actions).mean(
-            axis=1
-        ),
-        "The work is |action * speed|, not its square.": (product**2).mean(axis=1),
-        "The work is the root of the mean square; the mean |action * speed| is asked for.": np.sqrt(
-            (product**2).mean(axis=1)
-        ),
-        "The mean of a product is not the product of the means: multiply joint by joint.": np.abs(
+        "The actions are left out of the work, but |action * speed| is asked for.": np.abs(
+            speeds
+        ).mean(axis=1),
+        "The speeds are left out of the work, but |action * speed| is asked for.": np.abs(
             actions
-        ).mean(axis=1)
-        * np.abs(speeds).mean(axis=1),
-        "The mean goes over the joints of each step, not over the steps, too (axis=1).": np.full(
-            len(actions), np.abs(product).mean()
+        ).mean(axis=1),
+        "The work is squared, but |action * speed| itself is asked for.": (product**2).mean(axis=1),
+        "The work is the root of the mean square, but the mean of |action * speed| is asked "
+        "for.": np.sqrt((product**2).mean(axis=1)),
+        "The mean |action| is multiplied by the mean |speed|, but action and speed should be "
+        "multiplied joint by joint.": np.abs(actions).mean(axis=1) * np.abs(speeds).mean(axis=1),
+        "The mean of the work goes over all steps, too, but should go over the joints of each "
+        "step only (axis=1).": np.full(len(actions), np.abs(product).mean()),
+        "The work is left out, but 2 times the mean of |action * speed| is asked for.": np.zeros(
+            len(actions)
         ),
-        "The work is left out: 2 times the mean |action * speed|.": np.zeros(len(actions)),
-        "Work against the motion is left out: |action * speed| counts.": np.maximum(
+        "Negative work counts as 0, but |action * speed| should count.": np.maximum(
             product, 0
         ).mean(axis=1),
     }
     effort = {
         "": squares.mean(axis=1),
-        "The cost of standing still with force, 0.1 times the action's square, is left out.": zero,
-        "The 0.1 belongs to the mean of the squares, not to the square of the mean.": actions.mean(
+        "The mean squared action is left out, but 0.1 times it is asked for.": zero,
+        "The square of the mean action is taken, but the mean of the squared actions is asked "
+        "for.": actions.mean(axis=1) ** 2,
+        "The mean |action| is taken for the second part, but the mean squared action is asked "
+        "for.": np.abs(actions).mean(axis=1),
+        "The squared actions are added up over joints, but their mean is asked for.": squares.sum(
             axis=1
-        )
-        ** 2,
-        "The 0.1 belongs to the mean squared action, not to the mean |action|.": np.abs(
-            actions
-        ).mean(axis=1),
-        "The squared actions are added up over the joints: take their mean.": squares.sum(axis=1),
-        f"The squared actions are divided {six} mean.": squares.sum(axis=1) / 6,
-        "The mean squared action is asked for, not its root.": np.sqrt(squares.mean(axis=1)),
-        "The actions are squared, not the speeds.": (speeds**2).mean(axis=1),
-        "The second mean is that of the squared actions, not of |action * speed| again.": np.abs(
-            product
-        ).mean(axis=1),
-        "The mean squared action goes over the joints of a step only.": squares.mean() + zero,
-        "The actions are not squared.": actions.mean(axis=1),
+        ),
+        f"The sum of the squared actions is divided {six} mean is asked for.": squares.sum(axis=1)
+        / 6,
+        "The root of the mean squared action is taken, but the mean squared action itself is "
+        "asked for.": np.sqrt(squares.mean(axis=1)),
+        "The speeds are squared, but the mean squared action is asked for.": (speeds**2).mean(
+            axis=1
+        ),
+        "The second mean is that of |action * speed| again, but the mean squared action is asked "
+        "for.": np.abs(product).mean(axis=1),
+        "The mean squared action goes over all steps, too, but should go over the joints of each "
+        "step only.": squares.mean() + zero,
+        "The mean action is not squared, but the mean squared action is asked for.": actions.mean(
+            axis=1
+        ),
     }
     found = slips(
         lambda work, effort, prices, factors: -(
@@ -300,38 +330,43 @@ def mistaken_electricity(one: dict) -> dict:
         effort=effort,
         prices={
             "": (2.0, 0.1),
-            "The speeds stay in units of 10 radians per second: do not multiply them by 10.":
+            "The factor of the work is 20, but 2 is asked for: the speeds should stay in units of "
+            "10 rad/s.":
             (20.0, 0.1),
             "The factor 2 of the work is left out.": (1.0, 0.1),
-            "The cost of the squared action is 0.1 times it, not 1 time.": (2.0, 1.0),
-            "The squared action is not multiplied by the 2 of the work.": (2.0, 0.2),
-            "The factors 2 and 0.1 are exchanged: 2 belongs to the work.": (0.1, 2.0),
-            "The squared action is subtracted from the cost: both parts are costs.": (2.0, -0.1),
-            "The work is a tenth of what it is: 0.1 belongs to the squared action alone, and the "
-            "speeds stay in their units.": (0.2, 0.1),
+            "The factor 0.1 of the mean squared action is left out.": (2.0, 1.0),
+            "The mean squared action is multiplied by 0.2 instead of 0.1.": (2.0, 0.2),
+            "The factors 2 and 0.1 are exchanged: 2 should be that of the work.": (0.1, 2.0),
+            "The mean squared action makes the cost smaller, but should add to it.": (2.0, -0.1),
+            "The work is multiplied by 0.2 instead of 2.": (0.2, 0.1),
         },
         factors={
             "": (4.25, 4.25) if humanoid else (1.0, 1.0),
-            "The cost is a negative number: the sign is wrong.":
+            "The sign is wrong: the cost should be a negative number.":
             (-4.25, -4.25) if humanoid else (-1.0, -1.0),
             **({
-                "The electricity of a Humanoid costs more than that of others.": (1.0, 1.0),
-                "A Humanoid pays 4.25 times the squared action, too.": (4.25, 1.0),
-                "A Humanoid pays 4.25 times the work, too.": (1.0, 4.25),
-                "A Humanoid's electricity is multiplied by 4.25, not divided.":
+                "The Humanoid pays as much as other robots, but should pay 4.25 times as much.":
+                (1.0, 1.0),
+                "Only the Humanoid's work is multiplied by 4.25, but its mean squared action "
+                "should be, too.": (4.25, 1.0),
+                "Only the Humanoid's mean squared action is multiplied by 4.25, but its work "
+                "should be, too.": (1.0, 4.25),
+                "The Humanoid's electricity is divided by 4.25, but should be multiplied by it.":
                 (1 / 4.25, 1 / 4.25),
-                "The 4.25 of a Humanoid multiplies twice.": (4.25**2, 4.25**2),
+                "The Humanoid's electricity is multiplied by 4.25 twice, but once is asked for.":
+                (4.25**2, 4.25**2),
             } if humanoid else {
-                "Only a Humanoid pays 4.25 times as much.": (4.25, 4.25),
+                "The cost is multiplied by 4.25, but only a Humanoid should pay so much.":
+                (4.25, 4.25),
             }),
         },
     )  # fmt: skip
-    cost = found["The cost is a negative number: the sign is wrong."]
+    cost = found["The sign is wrong: the cost should be a negative number."]
     return {
-        "The sums are divided by 6, however many joints there are: take their mean.":
+        "The sums are divided by 6, however many joints there are, but means are asked for.":
         -cost * joints / 6,
-        "The means are sums over the joints.": -cost * joints,
-        "The means go over the joints of each step, not over the steps, too.":
+        "Sums over the joints are taken, but means are asked for.": -cost * joints,
+        "The means go over all steps, too, but should go over the joints of each step only.":
         np.full(len(cost), -cost.mean()),
     } | found  # fmt: skip
 
@@ -340,8 +375,8 @@ def why_at_limit(one: dict, t: int) -> str:
     row = one["positions"][t]
     count = int((np.abs(row) > 0.99).sum())
     return (
-        f"In step {t}, {count} of the {len(row)} joints at {[round(float(p), 4) for p in row]} "
-        f"are beyond 0.99 or -0.99: that makes {-0.1 * count:.1f}."
+        f"In step {t}, the number of joints above 0.99 or below -0.99 is {count} of {len(row)}, at "
+        f"{[round(float(p), 4) for p in row]}, so it should be {-0.1 * count:.1f}."
     )
 
 
@@ -352,36 +387,48 @@ def mistaken_limits(positions: np.ndarray) -> dict:
         lambda there, over, price: price * over(there),
         there={
             "": size > 0.99,
-            "Joints at their lower limits count, too.": positions > 0.99,
-            "Joints at their upper limits count, too.": positions < -0.99,
-            "A joint exactly at 0.99 is not at its limit: compare with `>`, not `>=`.":
+            "Only joints above 0.99 count, but those below -0.99 are at their limits, too.":
+            positions > 0.99,
+            "Only joints below -0.99 count, but those above 0.99 are at their limits, too.":
+            positions < -0.99,
+            "A joint exactly at 0.99 or -0.99 counts, but only those above 0.99 or below -0.99 "
+            "should.":
             size >= 0.99,
-            "A joint is at its limit beyond 0.99, not only from 1 on.": size >= 1,
-            "A joint is at its limit beyond 0.99, not only beyond 1.": size > 1,
-            "A joint that is past its limit, beyond 1, counts, too.": (size > 0.99) & (size <= 1),
-            "The comparison is the wrong way round: these joints are not at their limits.":
+            "Joints count only if |position| is 1 or more, but all beyond 0.99 should count.":
+            size >= 1,
+            "Joints count only if |position| is above 1, but all beyond 0.99 should count.":
+            size > 1,
+            "Joints past their limits, such as 1.2, are left out, but should count, too.":
+            (size > 0.99) & (size <= 1),
+            "The comparison is the wrong way round: joints that are not at their limits count.":
             size < 0.99,
-            "Each joint at its limit costs 0.1, however far it is: count them.":
+            "The |position| of each joint at its limit is added up, but these joints should be "
+            "counted.":
             size * (size > 0.99),
         },
         over={
             "": lambda there: there.sum(axis=1),
-            "Each joint at its limit costs 0.1: their share (a mean) is taken.":
+            "The share of joints at their limits (a mean) is taken, but their number is asked "
+            "for.":
             lambda there: there.mean(axis=1),
-            "Each joint at its limit costs 0.1: count them, do not ask whether there is any.":
+            "It only matters whether any joint is at its limit, but these joints should be "
+            "counted.":
             lambda there: there.any(axis=1),
-            "Each joint at its limit costs 0.1: count them, do not ask whether all are.":
+            "It only matters whether all joints are at their limits, but those that are should be "
+            "counted.":
             lambda there: there.all(axis=1),
-            "Count the joints of each step, not of all steps (axis=1).":
+            "The joints of all steps are counted together, but each step should have its own "
+            "number (axis=1).":
             lambda there: np.full(len(there), there.sum()),
-            "The joints are counted up over the steps: each step has its own number.":
+            "The numbers are added up from step to step, but each step should have its own "
+            "number.":
             lambda there: np.cumsum(there.sum(axis=1)),
         },
         price={
             "": -0.1,
-            "It is a cost: a negative number.": 0.1,
+            "A joint at its limit gives 0.1, but -0.1 is asked for.": 0.1,
             "The factor 0.1 is left out.": -1.0,
-            "A joint at its limit costs 0.1, not 0.01.": -0.01,
+            "A joint at its limit costs 0.01, but 0.1 is asked for.": -0.01,
         },
     )  # fmt: skip
     return {text: value for text, value in found.items() if value.any()}  # 0 tells nothing apart
@@ -408,62 +455,62 @@ def mistaken_v0(one: dict) -> dict:
     fallen = wanted["alive"] < 0
     slow = wanted["progress"] * one["duration"]
     mistakes = {
-        "Use the trajectory's 'duration', not a number.": {"progress": slow / 0.0165},
-        "The duration of a step is left out.": {"progress": slow},
-        "The fallen get 0, but they pay.": {"alive": np.maximum(wanted["alive"], 0.0)},
-        "A robot that has fallen counts as fallen ever after: judge each step by itself.": {
+        "A step of 0.0165 s is used, but the trajectory's 'duration' is asked for.": {
+            "progress": slow / 0.0165
+        },
+        "The division by the duration of a step is left out.": {"progress": slow},
+        "The fallen get 0, but -1 is asked for.": {"alive": np.maximum(wanted["alive"], 0.0)},
+        "A robot that has fallen once counts as fallen in all later steps, but each step should "
+        "be judged by itself.": {
             "alive": np.where(np.logical_or.accumulate(fallen), -1.0, wanted["alive"])
         },
-        "Steps after a fall are counted like all others here; do not set them to 0.": {
+        "Steps after the first fall are set to 0, but should count like all others.": {
             key: np.where(np.append(False, np.logical_or.accumulate(fallen)[:-1]), 0.0, values)
             for key, values in wanted.items()
         },
-        "The costs are negative numbers: the sign is wrong.": {
+        "The sign is wrong: costs should be negative numbers.": {
             key: -wanted[key] for key in ("electricity", "joints_at_limit")
         },
-        "The component is multiplied by the duration of a step: it is a number for each step, "
-        "however long that lasts.": {
+        "The component is multiplied by the duration of a step, but should not depend on it.": {
             key: wanted[key] * one["duration"]
             for key in ("alive", "electricity", "joints_at_limit")
         },
-        "The fallen pay for this, too.": {
+        "The fallen pay nothing for this, but should pay like all others.": {
             key: np.where(fallen, 0.0, wanted[key]) for key in ("electricity", "joints_at_limit")
         },
-        "The components are for each step; these are summed up to each step.": {
+        "The component is added up from step to step, but each step should have its own number.": {
             key: np.cumsum(values) for key, values in wanted.items()
         },
-        "The components are for each step, arrays of T numbers; this is their sum.": {
-            key: values.sum() for key, values in wanted.items()
-        },
-        "The components are for each step, arrays of T numbers; this is their mean.": {
-            key: values.mean() for key, values in wanted.items()
-        },
-        "The components are apart: this is the sum of all four.": dict.fromkeys(
+        "This is the sum over the steps, but an array of T numbers, one for each step, is asked "
+        "for.": {key: values.sum() for key, values in wanted.items()},
+        "This is the mean over the steps, but an array of T numbers, one for each step, is asked "
+        "for.": {key: values.mean() for key, values in wanted.items()},
+        "This is the sum of all four components, but each should stand alone.": dict.fromkeys(
             wanted, sum(wanted.values())
         ),
     }
     for other in ROBOTS:
         if other != one["robot"]:
             made = expected_v0(one | {"robot": other})
-            mistakes[f"The robot is taken for a {other}: hand on trajectory['robot']."] = {
-                key: made[key] for key in made if not np.array_equal(made[key], wanted[key])
-            }
+            mistakes[
+                f"The robot is taken for the {other}, but trajectory['robot'] should decide."
+            ] = {key: made[key] for key in made if not np.array_equal(made[key], wanted[key])}
     if one["robot"] == "Humanoid":
-        mistakes["The fallen pay 1, a Humanoid, too, not its bonus of 2."] = {
+        mistakes["The fallen Humanoid gets -2, but -1 is asked for."] = {
             "alive": np.where(fallen, -2.0, wanted["alive"])
         }
     end = int(np.argmax(fallen)) + 1 if fallen.any() else len(fallen)
-    for last, word in ((end, "after"), (end - 1, "from")):
-        mistakes[f"The steps {word} the first fall on are left out: all T steps count."] = {
+    for last, word in ((end, "after the first fall"), (end - 1, "from the first fall on")):
+        mistakes[f"The steps {word} are left out, but all T steps should count."] = {
             key: values[:last] for key, values in wanted.items()
         }
     mixed = {
-        "Height and pitch are exchanged: alive_bonus takes height first.": {
+        "Height and pitch are exchanged, but alive_bonus takes height first.": {
             "height": one["pitch"],
             "pitch": one["height"],
         },
         "'heading' is taken where 'height' belongs.": {"height": one["heading"]},
-        "Actions and speeds are exchanged: electricity takes actions first.": {
+        "Actions and speeds are exchanged, but electricity takes actions first.": {
             "actions": one["speeds"],
             "speeds": one["actions"],
         },
@@ -473,7 +520,7 @@ def mistaken_v0(one: dict) -> dict:
         "'actions' are taken where 'speeds' belong.": {"speeds": one["actions"]},
         "'actions' are taken where 'positions' belong.": {"positions": one["actions"]},
         "'speeds' are taken where 'positions' belong.": {"positions": one["speeds"]},
-        "'touching' is left out: a HalfCheetah has fallen on shin or thigh.": {
+        "'touching' is left out, but a HalfCheetah on shin or thigh has fallen.": {
             "touching": np.zeros(len(fallen))
         },
     }
@@ -492,33 +539,41 @@ def mistaken_v5(one: dict) -> dict:
     terms = {
         "progress": {
             "": progress,
-            "The duration of a step is left out of the progress.": progress * one["duration"],
-            "Use the trajectory's 'duration', not a number.": progress * one["duration"] / 0.0165,
+            "The progress is not divided by the duration of a step.": progress * one["duration"],
+            "A step of 0.0165 s is used, but the trajectory's 'duration' is asked for.": progress
+            * one["duration"]
+            / 0.0165,
             "Progress is left out.": 0.0,
-            "Progress counts twice.": 2 * progress,
+            "Progress is added twice, but once is asked for.": 2 * progress,
             "Progress has the wrong sign.": -progress,
         },
-        "alive": {"": 0.0, "Version 5 has no alive bonus for staying up.": alive},
-        "electricity": {"": 0.0, "Version 5 charges nothing for electricity.": v0["electricity"]},
+        "alive": {"": 0.0, "The alive bonus of version 0 is added, but version 5 has none.": alive},
+        "electricity": {
+            "": 0.0,
+            "Electricity is charged, but should cost nothing in version 5.": v0["electricity"],
+        },
         "limits": {
             "": limits,
-            "What joints at their limits cost is left out.": 0.0,
-            "Joints at limit is a negative number: add it, do not subtract it.": -limits,
-            "Joints at their limits count twice.": 2 * limits,
+            "Joints at limit is left out, but should be added.": 0.0,
+            "Joints at limit is subtracted, but it is a negative number already, and should be "
+            "added.": -limits,
+            "Joints at limit is added twice, but once is asked for.": 2 * limits,
         },
     }
     if robot in ("Hopper", "Walker2D"):
         terms["limits"] = {
             "": 0.0,
-            "Joints at their limits cost this robot nothing in version 5.": limits,
+            "Joints at limit is added, but should cost this robot nothing in version 5.": limits,
         }
     if robot == "Ant":
         terms |= terms_of_an_ant(one["actions"])
     if robot == "Humanoid":
         terms |= terms_of_a_humanoid(one, alive)
     return slips(lambda **each: sum(each.values()), **terms) | {
-        "The reward is for each step, an array of T numbers; this is the sum.": wanted.sum(),
-        "The reward is for each step; these are sums up to each step.": np.cumsum(wanted),
+        "This is the sum over the steps, but an array of T numbers, one for each step, is asked "
+        "for.": wanted.sum(),
+        "The reward is added up from step to step, but each step should have its own.":
+        np.cumsum(wanted),
     }  # fmt: skip
 
 
@@ -527,22 +582,24 @@ def terms_of_an_ant(actions: np.ndarray) -> dict:
     return {
         "given": {
             "": 0.01,
-            "The 0.01 of an Ant is left out.": 0.0,
-            "An Ant gets 0.01, not the 1 of version 0.": 1.0,
-            **{f"The 0.01 of an Ant is {much} here.": much for much in (0.1, 0.001)},
+            "The Ant's 0.01 is left out.": 0.0,
+            "The Ant gets the 1 of version 0, but 0.01 is asked for.": 1.0,
+            **{f"The Ant gets {much}, but 0.01 is asked for.": much for much in (0.1, 0.001)},
         },
         "effort": {
             "": -0.01 * squares,
-            "The 0.01 times the mean squared action is left out.": 0.0,
-            "The mean squared action is subtracted, not added.": 0.01 * squares,
-            "An Ant pays for the mean of the squares, not for their sum.":
+            "The mean squared action is left out, but 0.01 times it should be subtracted.": 0.0,
+            "The mean squared action is added, but should be subtracted.": 0.01 * squares,
+            "The Ant pays for the sum of its squared actions, but should pay for their mean.":
             -0.01 * (actions**2).sum(axis=1),
-            "An Ant pays for the mean of the squares, not for the square of the mean.":
+            "The Ant pays for the square of its mean action, but should pay for the mean of the "
+            "squared actions.":
             -0.01 * actions.mean(axis=1) ** 2,
-            "An Ant pays for the squares of its actions, not for their absolute values.":
+            "The Ant pays for the mean |action|, but should pay for the mean squared action.":
             -0.01 * np.abs(actions).mean(axis=1),
             **{
-                f"The factor 0.01 of the mean squared action is {much} here.": -much * squares
+                f"The factor of the mean squared action is {much}, but 0.01 is asked for.":
+                -much * squares
                 for much in (0.1, 0.001, 1.0)
             },
         },
@@ -556,41 +613,48 @@ def terms_of_a_humanoid(one: dict, alive: np.ndarray) -> dict:
     return {
         "given": {
             "": 1.0,
-            "The 1 of a Humanoid is left out.": 0.0,
-            "A Humanoid gets 1 in version 5, not 2.": 2.0,
-            "A Humanoid gets its 1 in every step, fallen or not.": 1.0 * (alive > 0),
-            "A Humanoid gets 1 in every step here, not the alive bonus of version 0 (2 or -1).":
+            "The Humanoid's 1 is left out.": 0.0,
+            "The Humanoid gets 2, but 1 is asked for.": 2.0,
+            "The Humanoid gets its 1 only while it stands, but 1 in every step is asked for.":
+            1.0 * (alive > 0),
+            "The Humanoid gets the alive bonus of version 0 (2 or -1), but 1 in every step is "
+            "asked for.":
             alive,
-            "A Humanoid gets 1 in every step here, not 1 or -1.": np.sign(alive),
+            "The Humanoid gets 1 or -1, but 1 in every step is asked for.": np.sign(alive),
         },
         "beyond": {
             "": -10 * beyond,
-            "Beyond is a cost: subtract it.": 10 * beyond,
-            "Beyond is max(0, |position| - 1): the max is left out.":
+            "Beyond is added, but should be subtracted.": 10 * beyond,
+            "The max is left out of beyond, but max(0, |position| - 1) is asked for.":
             -10 * (positions - 1).sum(axis=1),
-            "Beyond is |position| - 1, how far past the limit, not the whole position.":
+            "The whole |position| of a joint past its limit is taken for beyond, but |position| - "
+            "1 is asked for.":
             -10 * (positions * (past > 0)).sum(axis=1),
-            "Beyond is squared: take it as it is.": -10 * (past**2).sum(axis=1),
-            "The factor of beyond is 10, not 0.1.": -0.1 * beyond,
+            "Each |position| - 1 is squared for beyond, but should be taken as it is.":
+            -10 * (past**2).sum(axis=1),
+            "The factor of beyond is 0.1, but 10 is asked for.": -0.1 * beyond,
             "Beyond is left out.": 0.0,
-            "Beyond is the sum over the joints, not the largest.": -10 * past.max(axis=1),
-            "Beyond is the sum over the joints, not their mean.": -10 * past.mean(axis=1),
-            "Beyond begins at 1, not at 0.99.":
+            "Only the joint farthest past its limit is taken for beyond, but the sum over all "
+            "joints is asked for.": -10 * past.max(axis=1),
+            "The mean over the joints is taken for beyond, but their sum is asked for.":
+            -10 * past.mean(axis=1),
+            "Beyond begins at 0.99, but should begin at 1.":
             -10 * np.maximum(positions - 0.99, 0).sum(axis=1),
-            "Beyond is how far joints are past their limits, not how many are.":
+            "Beyond is the number of joints past their limits, but how far they are past is asked "
+            "for.":
             -10 * (past > 0).sum(axis=1),
-            "Beyond counts at the lower limits, too: |position| - 1.":
+            "Only joints above 1 count for beyond, but those below -1 should, too.":
             -10 * np.maximum(one["positions"] - 1, 0).sum(axis=1),
-            "Beyond costs 10 times as much.": -beyond,
+            "The factor 10 of beyond is left out.": -beyond,
         },
         "heading": {
             "": -0.1 * heading**2,
-            "The heading is a cost: subtract it.": 0.1 * heading**2,
+            "The heading's part is added, but should be subtracted.": 0.1 * heading**2,
             "The heading is left out.": 0.0,
-            "The heading is to be squared, not |heading|.": -0.1 * np.abs(heading),
-            "The heading is to be squared.": -0.1 * heading,
-            "The square of the heading costs 0.1 times it.": -(heading**2),
-            "The pitch is taken for the heading.": -0.1 * one["pitch"] ** 2,
+            "|heading| is taken, but heading^2 is asked for.": -0.1 * np.abs(heading),
+            "The heading is taken as it is, but heading^2 is asked for.": -0.1 * heading,
+            "The factor 0.1 of heading^2 is left out.": -(heading**2),
+            "The pitch is taken instead of the heading.": -0.1 * one["pitch"] ** 2,
         },
     }  # fmt: skip
 
@@ -600,21 +664,21 @@ def why_v5(one: dict, t: int) -> str:
     v0, positions = expected_v0(one), np.abs(one["positions"][t])
     terms = [f"progress {v0['progress'][t]:.5g}"]
     if one["robot"] == "Ant":
-        terms.append(f"0.01 - 0.01 * mean squared action {np.mean(one['actions'][t] ** 2):.5g}")
+        terms.append(f"0.01 - 0.01 * (mean squared action {np.mean(one['actions'][t] ** 2):.5g})")
     if one["robot"] == "Humanoid":
         beyond = np.maximum(positions - 1, 0).sum()
-        terms.append(f"1 - 10 * beyond {beyond:.5g} - 0.1 * heading {one['heading'][t]:.5g}^2")
+        terms.append(f"1 - 10 * (beyond {beyond:.5g}) - 0.1 * (heading {one['heading'][t]:.5g})^2")
     if one["robot"] not in ("Hopper", "Walker2D"):
         terms.append(f"joints at limit {v0['joints_at_limit'][t]:.3g}")
     nothing = " alone" if len(terms) == 1 else ""
-    return f"The {one['robot']}'s reward of step {t} is {' + '.join(terms)}{nothing}."
+    return f"The {one['robot']}'s reward of step {t} should be {' + '.join(terms)}{nothing}."
 
 
 def why_paid(one: dict, t: int) -> str:
     """Why a planar runner gets its bonus after step t, or not."""
     robot, height, pitch = one["robot"], float(one["height"][t]), abs(float(one["pitch"][t]))
     if robot == "PlanarHalfCheetah":
-        return "The bonus of a PlanarHalfCheetah is 0, however it stands or lies."
+        return "The bonus of a PlanarHalfCheetah should be 0 in every step."
     low, high, lean = (0.7, np.inf, 0.2) if robot == "PlanarHopper" else (0.8, 2, 1)
     wrong = [
         f"{what} {value:.4g} is not {side} {limit}"
@@ -625,8 +689,8 @@ def why_paid(one: dict, t: int) -> str:
         )
         if not holds
     ]
-    ends = "height and pitch are inside the limits, and there are no others"
-    return f"In step {t} the {robot} gets {0 if wrong else 1}: {' and '.join(wrong) or ends}."
+    ends = "height and pitch are inside their limits, and nothing else matters"
+    return f"In step {t} the {robot} should get {0 if wrong else 1}: {' and '.join(wrong) or ends}."
 
 
 def mistaken_falls(one: dict) -> dict:
@@ -635,34 +699,44 @@ def mistaken_falls(one: dict) -> dict:
     steep = {"PlanarHopper": 0.2, "PlanarWalker2D": 1.0}.get(robot, np.inf)
     low, high = {"PlanarHopper": (0.7, np.inf), "PlanarWalker2D": (0.8, 2.0)}.get(robot, (0, 0))
     stands = {
-        "A PlanarHalfCheetah gets no bonus: 0 in each step.": np.ones(len(height)),
-        "A PlanarHalfCheetah gets no bonus, and its pitch does not matter.": pitch < 1,
-        "The limits of PyBullet's robots are used: planar runners have limits of their own.": (
-            height > 0.8
-        )
-        & (pitch < 1),
+        "A PlanarHalfCheetah gets a bonus of 1 in every step, but 0 is asked for.": np.ones(
+            len(height)
+        ),
+        "A PlanarHalfCheetah gets a bonus where |pitch| is below 1, but 0 in every step is asked "
+        "for.": pitch < 1,
+        "The limits are those of PyBullet's Hopper and Walker2D, but planar runners should be "
+        "judged by their own table.": (height > 0.8) & (pitch < 1),
     }
     if robot != "PlanarHalfCheetah":
         tall, up = (height > low) & (height < high), pitch < steep
         stands = {
-            "The limits of PyBullet's robots are used: planar runners have limits of their own.":
+            "The limits are those of PyBullet's Hopper and Walker2D, but planar runners should be "
+            "judged by their own table.":
             (height > 0.8) & (pitch < 1),
-            "The limits of PlanarHopper and PlanarWalker2D are exchanged.":
+            "The limits of PlanarHopper and PlanarWalker2D are mixed up.":
             (height > 0.8) & (height < 2) & (pitch < 1) if steep < 1
             else (height > 0.7) & (pitch < 0.2),
             "The pitch is left out.": tall,
             "The height is left out.": up,
-            "A runner that leans back is forgotten: abs(pitch).": tall & (one["pitch"] < steep),
-            f"A {robot} has a highest height, too: below {high}.": (height > low) & up,
-            f"The lowest height of a {robot} is left out: above {low}.": (height < high) & up,
-            "The pitch is in radians: no conversion is needed.": tall & (np.radians(pitch) < steep),
-            "The limits belong to the fallen: compare with `<` and `>`, not `<=` and `>=`.":
+            "A negative pitch always counts as upright, but abs(pitch) should be below the "
+            "limit.": tall & (one["pitch"] < steep),
+            f"The highest height of a {robot} is left out, but it should be below {high}.":
+            (height > low) & up,
+            f"The lowest height of a {robot} is left out, but it should be above {low}.":
+            (height < high) & up,
+            "The pitch is multiplied by pi / 180, but is in radians already.":
+            tall & (np.radians(pitch) < steep),
+            "A limit itself counts as standing, but `<` and `>` are asked for, not `<=` and "
+            "`>=`.":
             (height >= low) & (height <= high) & (pitch <= steep),
-            "One condition is enough to fall: join them by and, not by or.": tall | up,
-            "Each step has the bonus of the step before: judge by the heights after the step.":
+            "A runner counts as fallen only if height and pitch are both outside their limits, "
+            "but one is enough.": tall | up,
+            "Each step has the bonus of the step before it, but height and pitch after the step "
+            "should decide.":
             np.append(True, (tall & up)[:-1]),
-            "Each step has the bonus of the step after.": np.append((tall & up)[1:], True),
-            "A runner that has fallen once counts as fallen ever after: judge each step by itself.":
+            "Each step has the bonus of the step after it.": np.append((tall & up)[1:], True),
+            "A runner that has fallen once counts as fallen in all later steps, but each step "
+            "should be judged by itself.":
             np.logical_and.accumulate(tall & up),
             "The comparison is the wrong way round: the fallen get the bonus.": ~(tall & up),
         }  # fmt: skip
@@ -672,8 +746,8 @@ def mistaken_falls(one: dict) -> dict:
         stands={"": right, **stands},
         paid={
             "": (1.0, 0.0),
-            "The fallen get 0 here, not -1.": (1.0, -1.0),
-            "The bonus is 1, not 2.": (2.0, 0.0),
+            "Steps without a bonus get -1, but 0 is asked for.": (1.0, -1.0),
+            "The bonus is 2, but 1 is asked for.": (2.0, 0.0),
         },
     )
 
@@ -690,59 +764,86 @@ def mistaken_gait(one: dict) -> dict:
 
     return {
         "metres": [
-            ("Going away is negative.", abs(metres)),
-            ("The way begins at the start, not after the first step.", distance[1] - distance[-1]),
-            ("The way goes to the end, not to the nearest point.", distance[0] - min(distance)),
-            ("The way goes to the end, not to the last step but one.", distance[0] - distance[-2]),
-            ("Steps backwards count, too.", moved * one["duration"]),
-            ("This is the path, back and forth; the metres are from start to end.",
+            ("The metres of a robot that goes away are positive, but should be negative.",
+             abs(metres)),
+            ("The way is measured from the distance after the first step, but should be measured "
+             "from the start.", distance[1] - distance[-1]),
+            ("The way is measured to the nearest point, but should be measured to the end.",
+             distance[0] - min(distance)),
+            ("The way ends one step too early: it should go to the last distance.",
+             distance[0] - distance[-2]),
+            ("Steps backwards are left out of the metres, but should be subtracted.",
+             moved * one["duration"]),
+            ("This is the path, back and forth, but the first distance minus the last one is "
+             "asked for.",
              np.abs(np.diff(distance)).sum()),
-            ("This is the sum of speeds: a speed times the duration is a way.", progress.sum()),
+            ("This is the sum of the steps' speeds, but metres are asked for: speed times "
+             "duration.", progress.sum()),
         ],
         "seconds": [
-            ("A step lasts as long as the trajectory's duration says.", 0.0165 * steps),
-            ("The start is no step: T steps have T + 1 distances.", one["duration"] * (steps + 1)),
-            ("All T steps count, the first and the last, too.", one["duration"] * (steps - 1)),
-            ("This is the number of steps, not their time.", steps),
+            ("A step of 0.0165 s is used, but the trajectory's 'duration' is asked for.",
+             0.0165 * steps),
+            ("T + 1 steps are counted, but there are T: the start is not a step.",
+             one["duration"] * (steps + 1)),
+            ("T - 1 steps are counted, but there are T.", one["duration"] * (steps - 1)),
+            ("This is the number of steps, but their time in seconds is asked for.", steps),
         ],
         "speed": [
-            ("Steps backwards count with a minus sign.", np.abs(progress).mean()),
-            ("Steps backwards count with a minus sign, not as 0.", np.maximum(progress, 0).mean()),
-            ("The mean goes over all steps, not over those forward only.",
+            ("Steps backwards count as positive speeds, but should count as negative ones.",
+             np.abs(progress).mean()),
+            ("Steps backwards count as speed 0, but should count as negative speeds.",
+             np.maximum(progress, 0).mean()),
+            ("The mean goes over the steps forward only, but should go over all steps.",
              progress[progress > 0].mean() if moved else 0.0),
-            ("Going away is a negative speed.", abs(wanted["speed"])),
-            ("This is metres a step, not a second.", metres / steps),
-            ("This is the median of the steps' speeds, not their mean.", np.median(progress)),
-            ("This is the speed of the last step.", progress[-1]),
-            ("This is the highest speed.", progress.max()),
+            ("The speed of a robot that goes away is positive, but should be negative.",
+             abs(wanted["speed"])),
+            ("This is metres per step, but metres per second are asked for.", metres / steps),
+            ("This is the median of the steps' speeds, but their mean is asked for.",
+             np.median(progress)),
+            ("This is the speed of the last step, but the mean of all steps is asked for.",
+             progress[-1]),
+            ("This is the highest speed of a step, but the mean of all steps is asked for.",
+             progress.max()),
         ],
         "standing": [
-            ("Effort is no income: leave it out.", share(alive, alive + moved + effort)),
-            ("The effort is no income, and its sign does not matter.",
+            ("The effort is subtracted from the income, but should be left out.",
+             share(alive, alive + moved + effort)),
+            ("The size of the effort is added to the income, but should be left out.",
              share(alive, alive + moved - effort)),
-            ("Steps backwards are left out one by one, not subtracted from the sum.",
+            ("Steps backwards are subtracted from the sum of the progress (down to 0), but "
+             "should be left out.",
              share(alive, alive + max(progress.sum(), 0))),
-            ("Steps backwards are left out; here they are subtracted.",
+            ("Steps backwards are subtracted from the income, but should be left out.",
              share(alive, alive + progress.sum())),
-            ("Steps backwards are left out; here they are subtracted, so that the income may be "
-             "below 0.",
+            ("Steps backwards are subtracted from the income (down to 0), but should be left "
+             "out.",
              share(alive, max(alive + progress.sum(), 0))),
-            ("Steps backwards are left out; here their size is added.",
+            ("The size of steps backwards is added to the income, but they should be left out.",
              share(alive, alive + np.abs(progress).sum())),
-            ("Speeds are added up, not metres.", share(alive, alive + moved * one["duration"])),
-            ("This is the share of progress, not of standing.", share(moved, alive + moved)),
-            ("This is alive by progress, not alive by all of the income.", share(alive, moved)),
-            ("This is the share of steps in which it stands, not of its income.", alive / steps),
-            ("A robot that earns nothing has the share 0.0.", 0.0 if alive + moved else 1.0),
+            ("Metres are added up for the progress, but speeds in metres per second are asked "
+             "for.", share(alive, alive + moved * one["duration"])),
+            ("This is the share of progress in the income, but that of standing is asked for.",
+             share(moved, alive + moved)),
+            ("sum(alive) is divided by sum(progress), but should be divided by the sum of both.",
+             share(alive, moved)),
+            ("This is the share of the steps in which the robot stands, but that of its income is "
+             "asked for.", alive / steps),
+            ("The share should be 0.0 if the robot earns nothing, and sum(alive) / (sum(alive) + "
+             "sum(progress)) otherwise.", 0.0 if alive + moved else 1.0),
         ],
         "grounded": [
-            ("One foot on the ground is enough.", feet.min(axis=1).mean()),
-            ("Only the first foot counts.", feet[:, 0].mean()),
-            ("Only the last foot counts.", feet[:, -1].mean()),
-            ("The feet are counted, but only whether any of them is down matters.", feet.mean()),
-            ("Steps with two feet down count once, not twice.", feet.sum() / steps),
-            ("This is the share of steps in the air.", 1 - wanted["grounded"]),
-            ("This is the number of steps, not their share.", wanted["grounded"] * steps),
+            ("A step counts only if all feet are on the ground, but at least one is enough.",
+             feet.min(axis=1).mean()),
+            ("Only the first foot counts, but any foot should.", feet[:, 0].mean()),
+            ("Only the last foot counts, but any foot should.", feet[:, -1].mean()),
+            ("This is the mean over the feet, but the share of steps with at least one foot on "
+             "the ground is asked for.", feet.mean()),
+            ("Steps with two feet on the ground count twice, but should count once.",
+             feet.sum() / steps),
+            ("This is the share of steps in the air, but that of steps on the ground is asked "
+             "for.", 1 - wanted["grounded"]),
+            ("This is the number of steps on the ground, but their share is asked for.",
+             wanted["grounded"] * steps),
         ],
     }  # fmt: skip
 
@@ -752,13 +853,14 @@ def why_gait(one: dict, wanted: dict, key: str) -> str:
     distance, v0, steps = one["distance"], expected_planar(one), len(one["height"])
     moved = v0["progress"][v0["progress"] > 0].sum()
     return {
-        "metres": f"The target is {distance[0]:.7g} m away at first, {distance[-1]:.7g} at last.",
+        "metres": f"The target is {distance[0]:.7g} m away at the start and {distance[-1]:.7g} m "
+        "at the end.",
         "seconds": f"There are {steps} steps of {one['duration']:g} s.",
-        "speed": f"These are {wanted['metres']:.5g} m in {wanted['seconds']:.5g} s.",
-        "standing": f"The bonuses add up to {v0['alive'].sum():g}, the progress of the steps "
-        f"forward to {moved:.5g}.",
-        "grounded": f"In {int(one['feet'].max(axis=1).sum())} of {steps} steps a foot touches "
-        "the ground.",
+        "speed": f"It should be {wanted['metres']:.5g} m divided by {wanted['seconds']:.5g} s.",
+        "standing": f"The bonuses should add up to {v0['alive'].sum():g}, and the progress of the "
+        f"steps forward to {moved:.5g}.",
+        "grounded": f"In {int(one['feet'].max(axis=1).sum())} of {steps} steps at least one foot "
+        "touches the ground.",
     }[key]
 
 
@@ -785,50 +887,58 @@ def mistaken_means(runner, rows: np.ndarray, seed: int, episodes: int) -> dict:
 
     wanted, apart = table(usual), [table(lambda _, at=at: [at]) for at in usual(0)]
     return {
-        "All are to be recorded in version 5.": table(usual, version="v0"),
-        "Only the first episode counts: episode i is to have seed + i.": apart[0],
-        "Only the last episode counts.": apart[-1],
-        "The first episode has the seed itself, not the next one.": table(
+        "The robots are recorded in version 0, but should be recorded in version 5.":
+        table(usual, version="v0"),
+        "Only the episode with the seed itself counts, but the mean over the seeds seed, seed + "
+        "1, ... is asked for.": apart[0],
+        "Only the last episode counts, but the mean over all episodes is asked for.": apart[-1],
+        "The seeds are seed + 1, seed + 2, ..., but the first episode should have the seed "
+        "itself.": table(
             lambda _: range(seed + 1, seed + episodes + 1)
         ),
         "There is one episode too many.": table(lambda _: range(seed, seed + episodes + 1)),
         "There is one episode too few.": table(lambda _: range(seed, seed + max(1, episodes - 1))),
-        "Episode i has the seed seed + i, not seed * i.": table(
+        "Episode i has the seed seed * i, but should have seed + i.": table(
             lambda _: [seed * i for i in range(episodes)]
         ),
-        "Episode i has the seed seed + i, not i.": table(lambda _: range(episodes)),
-        "Each row begins anew with the same seed: yours runs on from row to row.": table(
+        "Episode i has the seed i, but should have seed + i.": table(lambda _: range(episodes)),
+        "The seed runs on from row to row, but each row should begin with the given seed.": table(
             lambda i: range(seed + i * episodes, seed + (i + 1) * episodes)
         ),
-        "Each row begins anew with the same seed: yours adds the number of the row.": table(
+        "The number of the row is added to the seed, but each row should begin with the given "
+        "seed.": table(
             lambda i: range(seed + i, seed + i + episodes)
         ),
         **{
-            f"This is the {word} over the episodes, not their mean.": table(usual, function)
-            for word, function in (("median", np.median), ("highest", np.max), ("lowest", np.min),
-                                   ("last", lambda found: found[-1]), ("deviation", np.std))
+            f"This is the {word} over the episodes, but the mean is asked for.":
+            table(usual, function)
+            for word, function in (("median", np.median), ("highest value", np.max),
+                                   ("lowest value", np.min),
+                                   ("last value", lambda found: found[-1]),
+                                   ("standard deviation", np.std))
         },
-        "The last episode counts half, the one before it a quarter: all are to count alike.":
+        "The last episode counts half and the one before it a quarter, but all should count "
+        "alike.":
         table(usual, lambda found: reduce(lambda mean, new: (mean + new) / 2, found)),
-        "Each row has a number of its own, the mean over its episodes: this is the mean over "
-        "all rows.": {name: np.full(len(rows), np.mean(wanted[name])) for name in wanted},
-        "Each row is another robot: these are the numbers of the first one again.": {
+        "All rows have the mean over all rows, but each should have the mean over its own "
+        "episodes.": {name: np.full(len(rows), np.mean(wanted[name])) for name in wanted},
+        "All rows have the numbers of the first row, but each row is another robot.": {
             name: np.full(len(rows), wanted[name][0]) for name in wanted
         },
-        "Each row is another robot: these are the numbers of the last one again.": {
+        "All rows have the numbers of the last row, but each row is another robot.": {
             name: np.full(len(rows), wanted[name][-1]) for name in wanted
         },
-        "Each row has a number of its own: this is one number, the mean over all rows.": {
+        "This is one number, the mean over all rows, but a number for each row is asked for.": {
             name: np.mean(wanted[name]) for name in wanted
         },
-        "Each row has a number of its own, the mean over its episodes: this has one for each "
-        "episode, the mean over the rows.": {
+        "There is a number for each episode, the mean over the rows, but one for each row, the "
+        "mean over its episodes, is asked for.": {
             name: np.array([np.mean(each[name]) for each in apart]) for name in wanted
         },
-        "The mean over the episodes is missing: each row has a number for each episode.": {
+        "Each row has a number for each episode, but their mean is asked for.": {
             name: np.array([each[name] for each in apart]).T for name in wanted
         },
-        "These are the sums over the episodes, not their means.": {
+        "These are the sums over the episodes, but the means are asked for.": {
             name: episodes * wanted[name] for name in wanted
         },
     }  # fmt: skip

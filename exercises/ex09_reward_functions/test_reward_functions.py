@@ -141,7 +141,7 @@ def measures_progress(student: Student):
         mistakes = partial(mistaken_progress, distance, duration)
 
         def why(t: int, one=distance, lasts=duration) -> str:
-            return f"In step {t} it is ({one[t]:.7g} - {one[t + 1]:.7g}) / {lasts:g}."
+            return f"In step {t} it should be ({one[t]:.7g} - {one[t + 1]:.7g}) / {lasts:g}."
 
         expect_close(student.said, answer, wanted, 1e-7, mistakes, why)
 
@@ -201,7 +201,7 @@ standard = exercise.task("9.3", "Version 0", needs=("9.1", "9.2"))
 
 def call_v0(student: Student, one: dict) -> dict:
     answer = student.call("components_v0", one)
-    student.said = f"components_v0(a trajectory of a {one['robot']})"
+    student.said = f"components_v0(a trajectory of the robot {one['robot']})"
     return answer
 
 
@@ -216,14 +216,14 @@ def rebuilds_version_0(student: Student):
 
     one = made_up("Ant", 26)  # as many steps as before, but other ones
     compare_fields(
-        "components_v0(a second trajectory of an Ant)",
+        "components_v0(a second trajectory of the robot Ant)",
         call_v0(student, one),
         expected_v0(one),
         1e-7,
     )
 
     one = made_up("Ant", 25, 6) | {"duration": 0.03}
-    said = "components_v0(a trajectory of an Ant, 'duration': 0.03)"
+    said = "components_v0(a trajectory of the robot Ant, 'duration': 0.03)"
     answer = student.call("components_v0", one)
     student.said = said
     why = {"alive": partial(why_standing, one), "joints_at_limit": partial(why_at_limit, one)}
@@ -247,7 +247,7 @@ evolved = exercise.task("9.4", "Version 5", needs=("9.1", "9.2"))
 def compare_v5(student: Student, one: dict, wanted: np.ndarray, tolerance: float) -> None:
     answer = student.call("reward_v5", one)
     lasting = f", 'duration': {one['duration']:.4g}" if one["duration"] != 0.0165 else ""
-    said = student.said = f"reward_v5(a trajectory of a {one['robot']}{lasting})"
+    said = student.said = f"reward_v5(a trajectory of the robot {one['robot']}{lasting})"
     why = partial(why_v5, one) if tolerance < 1e-5 else None
     expect_close(said, answer, wanted, tolerance, partial(mistaken_v5, one), why)
 
@@ -306,19 +306,21 @@ def rebuilds_version_0_of_planar_runners(student: Student):
         wanted, means = expected_planar(one), (one["actions"] ** 2).mean(axis=1)
         price = 0.1 if robot == "PlanarHalfCheetah" else 0.001
         mistakes = {
-            "The effort is the sum over the joints, not their mean.": {"effort": -price * means},
-            "The fallen get 0 here, not -1.": {"alive": 2 * wanted["alive"] - 1},
-            "The effort is a negative number.": {"effort": -wanted["effort"]},
-            "The effort takes the squares of the actions, not |action|.": {
+            "The effort is the mean over the joints, but their sum is asked for.": {
+                "effort": -price * means
+            },
+            "Steps without a bonus get -1, but 0 is asked for.": {"alive": 2 * wanted["alive"] - 1},
+            "The sign is wrong: the effort should be a negative number.": {
+                "effort": -wanted["effort"]
+            },
+            "|action| is added up for the effort, but action^2 is asked for.": {
                 "effort": -price * np.abs(one["actions"]).sum(axis=1)
             },
-            f"The factor of a {robot}'s effort is {price}.": {
+            f"The factor of a {robot}'s effort should be {price}, not that of another robot.": {
                 "effort": wanted["effort"] * (100 if price < 0.1 else 0.01)
             },
-            f"Squares of actions cost {price} times them: the factor is left out.": {
-                "effort": wanted["effort"] / price
-            },
-            "Use the trajectory's 'duration', not the 0.0165 s of PyBullet.": {
+            f"The factor {price} of the effort is left out.": {"effort": wanted["effort"] / price},
+            "A step of 0.0165 s is used, but the trajectory's 'duration' is asked for.": {
                 "progress": wanted["progress"] * one["duration"] / 0.0165
             },
         }
@@ -328,8 +330,8 @@ def rebuilds_version_0_of_planar_runners(student: Student):
         why = {
             "alive": partial(why_paid, one),
             "effort": lambda t, one=one, price=price: (
-                f"In step {t} the squares of the actions "
-                f"{np.round(one['actions'][t], 4).tolist()} are added up, times -{price}."
+                f"In step {t} the squares of the actions {np.round(one['actions'][t], 4).tolist()} "
+                f"should be added up, and their sum multiplied by -{price}."
             ),
         }
         compare_fields(student.said, answer, wanted, 1e-7, mistakes, why)
@@ -347,7 +349,7 @@ def adds_up_to_what_the_planar_environment_pays(student: Student):
         answer = call_planar(student, runner.record(genotype, seed, 100))
         parts = expect_fields(student.said, answer, "progress", "alive", "effort")
         parts = [expect_array(student.said, part, paid.shape) for part in parts]
-        expect_close(f"the sum of {student.said}", sum(parts), paid, 1e-4)
+        expect_close(f"the sum of the components of {student.said}", sum(parts), paid, 1e-4)
 
 
 def random_robots(runner, count: int, index: int) -> np.ndarray:
@@ -433,11 +435,11 @@ def compares_one(student: Student, runner, genotypes: dict, index: int, episodes
         if "genotype has shape" not in str(error):
             raise
         raise Wrong(
-            f"{error}\n  The genotypes are those of the `robot` that is given: make its runner, "
-            "and record a whole row of them."
+            f"{error}\n  The genotypes are those of the `robot` that is given: its own Runner "
+            "should record them, a whole row at a time."
         ) from error
-    robots = " and ".join(f"{len(rows)} of {key}" for key, rows in genotypes.items())
-    said = f"compare('PlanarHalfCheetah', genotypes of robots, {robots}, "
+    robots = " and ".join(f"{len(rows)} for {key}" for key, rows in genotypes.items())
+    said = f"compare('PlanarHalfCheetah', genotypes ({robots}), "
     said = student.said = f"{said}seed={seed}, episodes={episodes})"
     for key, found in zip(genotypes, expect_fields(said, answer, *genotypes), strict=True):
         wanted = mean_gaits(runner, genotypes[key], seed, episodes)
@@ -466,15 +468,16 @@ def evolves_one(student: Student, robot: str, seeds: list[int], steps: int) -> N
         expect(
             np.shape(genotypes)[1:] != (Runner(f"PlanarHopper-{version}").size,)
             or "Hopper" in robot,
-            f"{said}: {version} holds robots of a PlanarHopper: evolve the one asked for.",
+            f"{said}: {version} holds genotypes of the size of a PlanarHopper's, but the robot "
+            "that is given should be evolved.",
         )
         genotypes = expect_array(f"{said}: {version}", genotypes, (len(seeds), runner.size))
         for i, (seed, genotype) in enumerate(zip(seeds, genotypes, strict=True)):
             same = bool(np.array_equal(genotype, runner.evolve(steps, seed)))
             expect(
                 same,
-                f"{said}: {version} holds in row {i} a robot that is not the one that {steps} "
-                f"steps of evolution with the seed {seed} in {runner.environment} lead to."
+                f"{said}: row {i} of {version} is not the robot to which {steps} steps of "
+                f"evolution with the seed {seed} in {runner.environment} lead."
                 + ("" if same else whose(genotype, robot, version, steps, seeds, i)),
             )
 

@@ -155,12 +155,17 @@ def layers_have_their_sizes(student: Student):
         wanted = [[hiddens, inputs], [hiddens], [outputs, hiddens], [outputs]]
         names = ("hidden.weight", "hidden.bias", "output.weight", "output.bias")
         for name, got, shape in zip(names, shapes, wanted, strict=True):
-            expect(got == shape, f"{said}: {name} has shape {show(got)}, but {shape} is needed.")
-        expect(count == 4, f"{said} has {show(count)} parameter tensors, but 4 are needed.")
+            expect(
+                got == shape, f"{said}: the shape of {name} is {show(got)}, but should be {shape}."
+            )
+        expect(
+            count == 4,
+            f"{said}: the number of its parameter tensors is {show(count)}, but should be 4.",
+        )
         expect(
             followed is True,
-            f"{said}: torch cannot follow what the network gives back to its weights, so they "
-            "could not learn. For example, .detach(), torch.no_grad() or NumPy cut it off.",
+            f"{said}: torch cannot follow its features or its outputs back to the weights, so that "
+            "these could not learn. Possible causes are .detach(), torch.no_grad() and NumPy.",
         )
 
 
@@ -245,8 +250,8 @@ def compare_where_differences_fail(student: Student, name: str, index: int) -> N
             value = expect_array(f"{said}: {key}", value, right[key].shape)
             because = ""
             if np.abs(value - right[key]).max() <= 0.5 * scale:  # near, so they may be differences
-                because = " Quotients of differences of the loss are about this far off where the "
-                because += "loss is large; the formulas are not."
+                because = " Quotients of differences of the loss would be near, too, but only the "
+                because += "formulas are exact enough here."
             expect(
                 bool(np.allclose(value, right[key], rtol=1e-5, atol=1e-6 * scale)),
                 f"{said}: {key} is {show(value)}, but {show(right[key])} was expected.{because}",
@@ -329,8 +334,9 @@ def what_torch_has_found(student: Student):
             got = expect_array(f"{said}: {key}", value, right.shape)
             expect(
                 bool(np.abs(got - factor * before).max() <= 1e-5 * np.abs(factor * right).max()),
-                f"{said}: {key} is not what torch's backward() has computed: the grader made torch "
-                f"multiply all gradients by {factor:g}, and {key} is not multiplied by it.",
+                f"{said}: {key} is not what torch's backward() has computed. The grader made torch "
+                f"multiply all gradients by {factor:g}, but {key} did not become {factor:g} times "
+                "as large.",
             )
 
 
@@ -366,13 +372,13 @@ def mistaken_losses(given: tuple, step: dict, losses: list, after: list) -> dict
         return descended(*given, **(step | other))[1]
 
     found = {
-        "These are the losses after each step, not before it.": descended(
+        "These are the losses after each step, but those before it are asked for.": descended(
             given[0], *given[1:3], [*given[3], given[3][0]], **step
         )[1][1:],
     } | mistaken_steps(of, step, given, after)
     falling = (of(falls=each) for each in (0.5, 0.9, 0.95, 0.98, 0.99, 0.995, 0.999))
     if len(losses) > 2 and any(np.allclose(losses, each, rtol=1e-4) for each in falling):
-        found["The learning rate falls from epoch to epoch, but it is to stay the same."] = losses
+        found["The learning rate falls from epoch to epoch, but it should stay the same."] = losses
     return found
 
 
@@ -382,30 +388,29 @@ def mistaken_steps(of, step: dict, given: tuple, after: list) -> dict:
     pairs = zip(after, given[0], strict=True)
     kept = all(np.array_equal(np.float32(got), np.float32(first)) for got, first in pairs)
     found = {
-        "The gradients of the steps add up: clear the old one before each backward().": of(
-            cleared=False
-        ),
-        "The steps go uphill: the gradient must be subtracted, not added.": of(learning_rate=-rate),
+        "The gradients of all steps are added up, but the old one should be cleared before each "
+        "backward().": of(cleared=False),
+        "The steps go uphill, but the gradient should be subtracted.": of(learning_rate=-rate),
     }
     if kept:
-        found["No step moves the network: every epoch has the same loss."] = of(learning_rate=0.0)
+        found["No step moves the network, so all epochs have the same loss."] = of(
+            learning_rate=0.0
+        )
     else:
-        text = "Every epoch has the same loss, that of the first, though the network has moved."
+        text = "Every epoch has the same loss, that before any step, though the network has moved."
         found[text] = of(learning_rate=0.0)
     if outputs > 1:
-        found["The steps are those of a sum over the outputs, not of the mean."] = of(
+        found["The steps are those of a sum over the outputs, but the mean is asked for."] = of(
             learning_rate=outputs * rate
         )
     if momentum:
         found |= {
-            "The momentum has no effect: nothing of the steps before is kept. Is the optimiser "
-            "made anew for each step, or without momentum?": of(momentum=0.0),
-            "The gradient is weakened by 1 - momentum (dampening): with momentum it is added "
+            "The momentum has no effect, because nothing of the steps before is kept. Is the "
+            "optimiser made anew for each step, or without momentum?": of(momentum=0.0),
+            "The gradient is multiplied by 1 - momentum (dampening), but it should be added "
             "whole.": of(fresh=1 - momentum),
-            "The gradient is weakened by 1 - momentum, from the first step on: here the sum is "
-            "v <- momentum v + gradient, and the gradient enters it whole.": of(
-                fresh=1 - momentum, first=1 - momentum
-            ),
+            "The gradient is multiplied by 1 - momentum, from the first step on, but v <- "
+            "momentum v + gradient is asked for.": of(fresh=1 - momentum, first=1 - momentum),
         }
     return found
 
@@ -455,7 +460,7 @@ def compare_training(student: Student, name: str, index: int, epochs: int, **opt
         if name == "train":
             given = (parameters, patterns, targets, everything)
             mistakes = partial(mistaken_losses, given, step, losses, after)
-        expect_close(f"{said}: losses", losses, right_losses, 1e-3, mistakes)
+        expect_close(f"{said}: the list of losses", losses, right_losses, 1e-3, mistakes)
         if len(losses) == epochs and not np.allclose(losses, right_losses, 1e-3, 1e-3):
             continue  # the parameters follow from the same mistake
         for key, got, wanted in zip(NAMES, after, right, strict=True):
@@ -608,33 +613,50 @@ def expect_trained(said: str, evidence: object) -> None:
     gradients, *walked = evidence if isinstance(evidence, list) and evidence else [0]
     expect(
         isinstance(gradients, int) and gradients >= GRADIENTS,
-        f"{said}: the grader has seen {show(gradients)} gradients, of torch or of the functions of "
-        f"11.2 and 11.3, but a training has at least {GRADIENTS}. Weights that are written down, "
-        "or come from a formula, do not count.",
+        f"{said}: the number of gradients that the grader has seen, of torch or of the functions "
+        f"of 11.2 and 11.3, is {show(gradients)}, but a training needs at least {GRADIENTS}. "
+        "Weights that are written down, or come from a formula, do not count.",
     )
     away, longest, come, size = walked if len(walked) == 4 else (1.0, 0.0, 0.0, 1.0)
     expect(
         away <= max(longest, 1e-4 * size) and come >= COME * size,
         f"{said} has computed {gradients} gradients, but steps along them did not lead from a "
-        "start to the weights that it returned. The network that comes back must be the trained "
-        "one, as its last steps left it, and trained from its first random weights on.",
+        "start to the weights that it returned. It should return the trained network as its last "
+        "step has left it, trained from its first random weights on.",
     )
 
 
 def compare_corners(
     student: Student, corners, targets, hiddens: int, index: int, stuck: int = 0, again: bool = True
 ) -> None:
-    """again: another seed decides where the way of the weights is not understood.
+    """Have a network learn corners, and look how it came about.
 
-    A line search may leap so far that a new walk seems to begin.
+    again: another seed decides where the way of the weights is not understood. A line search may
+    leap so far that a new walk seems to begin.
     """
+    said, evidence = expect_learnt(student, corners, targets, hiddens, index, stuck)
+    try:
+        expect_trained(said, evidence)
+    except Wrong:
+        if not again or not isinstance(evidence, list) or evidence[0] < GRADIENTS:
+            raise
+        compare_corners(student, corners, targets, hiddens, index + 500, stuck, again=False)
+
+
+def expect_learnt(
+    student: Student, corners, targets, hiddens: int, index: int, stuck: int = 0
+) -> tuple[str, object]:
+    """(said, how the network was trained) of a network whose outputs are near their targets."""
     seed = exercise.seed(index) % 100_000
     said = f"learn(inputs {corners.shape}, targets {show(targets.ravel())}, {hiddens}, {seed})"
     arguments = [corners, targets, hiddens, seed]
     answer = student.run(watched, "learn", arguments, stuck, said=said)
-    expect(isinstance(answer, list) and len(answer) == 3, f"{said} must return a Network.")
-    parameters, gradients, repeated = answer
-    expect(isinstance(parameters, list) and len(parameters) == 4, f"{said}: no Network came back.")
+    expect(isinstance(answer, list) and len(answer) == 3, f"{said} should return a Network.")
+    parameters, evidence, repeated = answer
+    expect(
+        isinstance(parameters, list) and len(parameters) == 4,
+        f"{said} should return a Network with its two layers.",
+    )
     shapes = ((hiddens, corners.shape[1]), (hiddens,), (1, hiddens), (1,))
     parameters = [
         expect_array(f"{said}: {key}", each, shape)
@@ -646,28 +668,23 @@ def compare_corners(
     if stuck and np.allclose(parameters[0], parameters[0][0], atol=1e-3):  # all neurons are alike
         because = " The first networks that it made were stuck, and should have been replaced."
     elif stuck:
-        because = " The grader made its first networks so that they are stuck; this is another one."
+        because = " The grader made the first networks stuck, but the neurons of this one differ."
     error = ((outputs - targets) ** 2).mean()
     if error <= 0.05:
         because += f" Their mean squared error is {error:.3f}; what counts is the distance of "
         because += "each output from its target."
     expect(
         wrong <= 0.05,
-        f"{said}: the outputs are {show(outputs.ravel())}, the farthest {wrong:.3f} away from its "
-        f"target, but 0.05 is allowed.{because}",
+        f"{said}: the outputs are {show(outputs.ravel())}, the farthest of them {wrong:.3f} away "
+        f"from its target, but at most 0.05 is allowed.{because}",
     )
     expect(
         not np.any(repeated),
         f"{said}: a network that it made learns from the same first weights as one before. If it "
-        "replaces a stuck one, it gets stuck again. Set torch's seed once, before the first "
-        "network.",
+        "replaces a stuck one, it gets stuck again. New networks should have new weights (with "
+        "torch's seed set once, before the first of them).",
     )
-    try:
-        expect_trained(said, gradients)
-    except Wrong:
-        if not again or not isinstance(gradients, list) or gradients[0] < GRADIENTS:
-            raise
-        compare_corners(student, corners, targets, hiddens, index + 500, stuck, again=False)
+    return said, evidence
 
 
 def square(low: float, high: float) -> np.ndarray:
@@ -697,11 +714,12 @@ def exclusive_or(student: Student):
     )
     expect(
         np.allclose(first, again, atol=1e-4),
-        f"{said}, called again, gives other weights: they must follow from the seed.",
+        f"{said}, called again, gives other weights, but the seed should decide them.",
     )
     expect(
         not np.allclose(first, other, atol=1e-4),
-        f"{said} gives the same weights as with seed {seed + 1}: train anew from each seed.",
+        f"{said} gives the same weights as with seed {seed + 1}, but each seed should give its "
+        "own.",
     )
 
 
@@ -720,6 +738,10 @@ def other_corners(student: Student):
     cube = np.array(list(itertools.product((low, high), repeat=3)))
     parity = (cube > 0).sum(axis=1, keepdims=True) % 2.0
     compare_corners(student, cube, one + (other - one) * parity, 8, 14)
+    # a single corner has another target, so that a mean error is small long before this one is
+    targets = np.full((8, 1), one)
+    targets[rng.integers(8)] += 0.14
+    expect_learnt(student, cube, targets, 8, 44)
 
 
 # ------------------------------------------------------------------- 11.6
@@ -736,20 +758,24 @@ def mistaken_deviations(inputs: np.ndarray, got) -> dict:
     """What mistakes make of the deviation; got: the submission's."""
     deviation, mean = inputs.std(axis=0), inputs.mean(axis=0)
     found = {
-        "This is the variance: the deviation is its root.": inputs.var(axis=0),
-        "This is the mean distance; the deviation is the root of the mean square.": np.abs(
-            inputs - mean
-        ).mean(axis=0),
-        "This is the range, highest minus lowest, not the deviation.": np.ptp(inputs, axis=0),
-        "This is the deviation of the whole table: each column has its own (axis=0).": 0 * mean
+        "This is the variance, but its root, the standard deviation, is asked for.": inputs.var(
+            axis=0
+        ),
+        "This is the mean distance from the mean, but the root of the mean squared distance is "
+        "asked for.": np.abs(inputs - mean).mean(axis=0),
+        "This is the range, highest minus lowest, but the standard deviation is asked for.": np.ptp(
+            inputs, axis=0
+        ),
+        "This is the deviation of the whole table, but each column should have its own (axis=0).": 0
+        * mean
         + inputs.std(),
     }
     tiny = [deviation + 10.0**-k for k in range(3, 13)]
     tiny += [np.maximum(deviation, 10.0**-k) for k in range(3, 13)]
     if any(np.shape(got) == each.shape and np.allclose(got, each, 1e-6, 1e-14) for each in tiny):
         found[
-            "A column that never changes gets the deviation 1, not a tiny number that is added or "
-            "put in its place."
+            "A tiny number is added to the deviations or put in the place of smaller ones, but a "
+            "column that never changes should get the deviation 1."
         ] = got
     return found
 
@@ -759,7 +785,7 @@ def normalised(student: Student, inputs: np.ndarray) -> tuple | list:
     answer = student.call("normalise", inputs)
     expect(
         isinstance(answer, (list, tuple)) and len(answer) == 3,
-        f"{student.said} must return the inputs, the mean and the deviation, not {show(answer)}.",
+        f"{student.said} should return the inputs, the mean and the deviation, not {show(answer)}.",
     )
     return answer
 
@@ -773,7 +799,10 @@ def compare_normalised(student: Student, inputs: np.ndarray, deviation: np.ndarr
     expect_close(f"{said}: the deviation", answer[2], deviation, 1e-6, mistakes)
     expect_close(f"{said}: the inputs", answer[0], (inputs - mean) / deviation, 1e-6)
     _, kept = student.run(normalised_and_kept, inputs, said=said)
-    expect(kept is True, f"{said} changed the inputs that it was given: make a new array.")
+    expect(
+        kept is True,
+        f"{said} changed the inputs that it was given, but it should make a new array.",
+    )
 
 
 @scaling.check(5)
@@ -808,18 +837,19 @@ def column_that_never_changes(student: Student):
     deviation[0] = 1.0
     compare_normalised(student, inputs, deviation)
     # a column of a small unit does change
-    inputs[:, 1] *= 1e-7
-    deviation[1] = inputs[:, 1].std()
-    compare_normalised(student, inputs, deviation)
+    for factor in (1e-7, 1e-3):
+        inputs[:, 1] *= factor
+        deviation[1] = inputs[:, 1].std()
+        compare_normalised(student, inputs, deviation)
     # and so does one of large numbers, of which single precision gives the deviation roughly
     numbers = 1_000_000 + rng.permutation(np.arange(12) - 5.0)
     deviations = normalised(student, numbers[:, None])[2]
     found = float(expect_array(student.said, deviations, (1,))[0])
     expect(
         abs(found - numbers.std()) < 0.5,
-        f"normalise(inputs), whose only column holds the numbers from 999995 to 1000006: the "
-        f"deviation is {found:.6g}, but {numbers.std():.6g} was expected. These numbers do change: "
-        "a column never changes only if all of its numbers are equal.",
+        "normalise(inputs), whose only column holds the numbers from 999995 to 1000006: the "
+        f"deviation is {found:.6g}, but {numbers.std():.6g} was expected. These numbers do change. "
+        "A column counts as one that never changes only if all of its numbers are equal.",
     )
 
 
@@ -846,10 +876,10 @@ def shuffled_and_cut(student: Student):
         right = cut(rng.permutation(n), batch_size)
         expect(
             isinstance(got, list) and len(got) == len(right),
-            f"{said} must return a list of {len(right)} arrays, not {show(got)}.",
+            f"{said} should return a list of length {len(right)}, of arrays, not {show(got)}.",
         )
         for i, (each, wanted) in enumerate(zip(got, right, strict=True)):
-            expect_close(f"{said}: minibatch {i}", each, wanted)
+            expect_close(f"{said}: element [{i}] of the list", each, wanted)
 
 
 @batches.check(7)
@@ -874,15 +904,16 @@ def measured(parameters: list, normalised, targets, answers, others) -> str:
     if np.abs(middle).max() > 0.1 or spread.max() > 1.1 or spread.min() < 0.9:
         return (
             f"(inputs - mean) / deviation has the means {show(middle)} and the deviations "
-            f"{show(spread)}, where normalised inputs have 0 and 1."
+            f"{show(spread)}, while normalised inputs have 0 and 1."
         )
     with np.errstate(invalid="ignore", divide="ignore"):
         pairs = zip(answers.T, others.T, strict=True)
         straight = np.array([np.corrcoef(*pair)[0, 1] ** 2 for pair in pairs])
     if straight.min() >= 0.9:
         return (
-            f"Stretched and shifted, its answers would explain {shown(straight)} %. For example, "
-            "it was trained on other targets than those given, or stopped too early."
+            f"Multiplied by a factor and shifted, its answers would explain {shown(straight)} %, "
+            "so what is wrong is their scale or level. It should be trained on the targets as "
+            "they are, and long enough."
         )
     own = 1 - ((outputs_of(parameters, normalised) - targets) ** 2).mean(axis=0) / targets.var(
         axis=0
@@ -890,20 +921,20 @@ def measured(parameters: list, normalised, targets, answers, others) -> str:
     many = len(parameters[1])
     if own.min() < 0:
         return (
-            f"On its own patterns it explains {shown(own)} %, less than their mean would. For "
-            "example, it was hardly trained, or on other inputs than (inputs - mean) / deviation, "
-            "or patterns and targets did not belong together."
+            f"On the patterns that fit was given it explains {shown(own)} % (below 0, their mean "
+            "would be better). It may have been trained hardly at all, or on other inputs than "
+            "(inputs - mean) / deviation, or with targets that did not belong to the patterns."
         )
     if not own.min() >= 0.9:
         return (
-            f"On its own patterns it explains {shown(own)} %: with {many} hidden neurons, it has "
-            "not learnt them yet. For example, it needs more epochs, another learning rate, "
-            "smaller minibatches or more neurons, or was trained on patterns that were not "
-            "normalised, or that did not belong to the targets."
+            f"On the patterns that fit was given it explains {shown(own)} %, so it has not learnt "
+            f"even these (number of hidden neurons: {many}). It may need more epochs, another "
+            "learning rate, smaller minibatches or more neurons, or its patterns were not "
+            "normalised, or did not belong to the targets."
         )
     return (
-        f"On its own patterns it explains {shown(own)} %: with {many} hidden neurons, it does "
-        "better on these than on patterns that it has not seen."
+        f"On the patterns that fit was given it explains {shown(own)} % (number of hidden neurons: "
+        f"{many}), so it does better on these than on patterns that it has not seen."
     )
 
 
@@ -930,18 +961,27 @@ def not_good_enough(student: Student, index: int, n: int, units, function) -> st
     seed = exercise.seed(index + 50) % 100_000
     said = f"fit(inputs {(n, len(units))}, targets {targets[:n].shape}, seed={seed})"
     answer = student.run(watched, "fit", [inputs[:n], targets[:n], seed], 0, said=said)
-    expect(isinstance(answer, list) and len(answer) == 4, f"{said} must return three things.")
+    expect(
+        isinstance(answer, list) and len(answer) == 4,
+        f"{said} should return (network, mean, deviation).",
+    )
     parameters, gradients, mean, deviation = answer
-    expect(isinstance(parameters, list) and len(parameters) == 4, f"{said}: no Network came back.")
+    expect(
+        isinstance(parameters, list) and len(parameters) == 4,
+        f"{said} should return a Network with its two layers.",
+    )
     mean, deviation = (expect_array(said, each, offset.shape) for each in (mean, deviation))
-    expect(bool(np.all(deviation != 0)), f"{said}: a deviation is 0.")
+    expect(
+        bool(np.all(deviation != 0)),
+        f"{said}: a deviation is 0, but (inputs - mean) is divided by it.",
+    )
     hiddens = len(parameters[1]) if isinstance(parameters[1], np.ndarray) else 0
-    expect(0 < hiddens <= 1000, f"{said}: the network needs 1 to 1000 hidden neurons.")
+    expect(0 < hiddens <= 1000, f"{said}: the network should have 1 to 1000 hidden neurons.")
     outputs = len(parameters[3]) if isinstance(parameters[3], np.ndarray) else 0
     expect(
         outputs == targets.shape[1],
-        f"{said}: the outputs of the network are {outputs}, but one for each of the "
-        f"{targets.shape[1]} columns of the targets is needed.",
+        f"{said}: the number of the network's outputs is {outputs}, but should be "
+        f"{targets.shape[1]}, one for each column of the targets.",
     )
     shapes = ((hiddens, len(units)), (hiddens,), (targets.shape[1], hiddens), targets.shape[1:])
     parameters = [
@@ -954,7 +994,7 @@ def not_good_enough(student: Student, index: int, n: int, units, function) -> st
         normalised = (inputs[:n] - mean) / deviation
         return (
             f"{said}: on 500 other patterns the network explains {shown(explained)} % of the "
-            "variance of the targets, but 90 % is asked for. "
+            "variance of the targets (their mean would explain 0 %), but 90 % is asked for. "
             + measured(parameters, normalised, targets[:n], answers, targets[n:])
         )
     expect_trained(said, gradients)

@@ -2,13 +2,13 @@
 
 
 # %% duration_of_pybullet loses 9.1
-# All steps are thought to last as long as PyBullet's.
+# Divides by 0.0165 s, the step of PyBullet's robots, whatever `duration` is, but `duration` should be used.
 def progress(distance, duration):
     return (distance[:-1] - distance[1:]) / 0.0165
 
 
 # %% fallen_get_nothing loses 9.1
-# A fallen robot gets 0 instead of -1.
+# Gives a fallen robot 0, but -1 is asked for.
 # says: The fallen get 0
 _alive_bonus = alive_bonus
 
@@ -18,7 +18,7 @@ def alive_bonus(robot, height, pitch, touching):
 
 
 # %% pitch_one_way loses 9.1
-# A robot may lean back as far as it likes.
+# Counts a pitch of -1 or less as upright, but abs(pitch) should be below 1.
 _alive_bonus = alive_bonus
 
 
@@ -27,22 +27,22 @@ def alive_bonus(robot, height, pitch, touching):
 
 
 # %% progress_backwards loses 9.1
-# Progress is positive when the robot goes away.
+# Gives a negative progress when the robot comes nearer, but it should be positive then.
 # says: sign is wrong: it is reversed
 def progress(distance, duration):
     return (distance[1:] - distance[:-1]) / duration
 
 
 # %% progress_in_metres loses 9.1
-# The progress is not divided by the duration of a step.
+# Leaves out the division by the duration of a step, but metres per second are asked for.
 # says: duration of a step is left out
 def progress(distance, duration):
     return distance[:-1] - distance[1:]
 
 
 # %% electricity_of_sums loses 9.2
-# The costs of the joints are added up instead of averaged.
-# says: a sum for a mean
+# Adds up the costs of the joints in each step, but their mean is asked for.
+# says: a sum for a mean|Sums over the joints
 _electricity = electricity
 
 
@@ -51,15 +51,15 @@ def electricity(robot, actions, speeds):
 
 
 # %% electricity_with_sign loses 9.2
-# Braking is paid for: the absolute value is missing.
+# Takes the mean of action * speed with its sign, but |action * speed| of each joint should be taken first.
 # says: Braking is paid for
 # -     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
 # +     cost = 2.0 * (actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
 
 
 # %% humanoid_pays_like_others loses 9.2
-# A Humanoid's electricity costs no more than that of others.
-# says: Humanoid costs more
+# Charges a Humanoid as much as the other robots, but it should pay 4.25 times as much.
+# says: pays as much as other robots
 _electricity = electricity
 
 
@@ -68,14 +68,14 @@ def electricity(robot, actions, speeds):
 
 
 # %% upper_limits_only loses 9.2
-# Only joints at their upper limits are counted.
-# says: lower limits count, too
+# Counts only the joints above 0.99, but those below -0.99 are at their limits, too.
+# says: those below -0.99
 def joints_at_limit(positions):
     return -0.1 * (positions > 0.99).sum(axis=1)
 
 
 # %% components_with_the_sum loses 9.3
-# The reward itself is returned as a further component.
+# Returns a further component, "reward", but only the four components are asked for.
 # says: does not have: \['reward'\]
 _components_v0 = components_v0
 
@@ -86,7 +86,7 @@ def components_v0(trajectory):
 
 
 # %% ant_gets_the_full_bonus loses 9.4
-# An Ant gets 1 instead of 0.01 for every step.
+# Gives an Ant 1 in every step, but 0.01 is asked for.
 _reward_v5 = reward_v5
 
 
@@ -95,7 +95,7 @@ def reward_v5(trajectory):
 
 
 # %% beyond_is_the_position loses 9.4
-# A Humanoid pays for the whole position of a joint that is past its limit.
+# Charges a Humanoid for the whole |position| of a joint past its limit, but only |position| - 1 should count.
 _reward_v5 = reward_v5
 
 
@@ -106,7 +106,7 @@ def reward_v5(trajectory):
 
 
 # %% limits_for_all loses 9.4
-# Hopper and Walker2D pay for joints at their limits too.
+# Charges Hopper and Walker2D for joints at their limits, but their reward should be the progress alone.
 # says: cost this robot nothing
 _reward_v5 = reward_v5
 
@@ -117,7 +117,7 @@ def reward_v5(trajectory):
 
 
 # %% divides_by_nothing loses 9.5
-# It divides by 0 for a robot that earns nothing.
+# Gives no number for "standing" when the robot earns nothing (as 0 / 0 does), but 0.0 is asked for.
 _gait = gait
 
 
@@ -128,7 +128,7 @@ def gait(trajectory):
 
 
 # %% fallen_runners_pay loses 9.5
-# Planar runners that have fallen get -1, as PyBullet's do.
+# Gives -1 wherever the alive bonus should be 0: for a fallen planar runner, and for a PlanarHalfCheetah in every step.
 _planar_v0 = planar_v0
 
 
@@ -138,7 +138,7 @@ def planar_v0(trajectory):
 
 
 # %% grounded_with_all_feet loses 9.5
-# A walker counts as grounded only while both feet are down.
+# Counts a step for "grounded" only if all feet touch the ground, but at least one is enough.
 _gait = gait
 
 
@@ -147,8 +147,8 @@ def gait(trajectory):
 
 
 # %% mean_effort loses 9.5
-# The effort is the mean over the joints instead of their sum.
-# says: not their mean
+# Takes the mean over the joints for the effort, but their sum is asked for.
+# says: is the mean over the joints
 _planar_v0 = planar_v0
 
 
@@ -158,7 +158,7 @@ def planar_v0(trajectory):
 
 
 # %% one_bonus_for_all_runners loses 9.5
-# A Walker2D has fallen when a Hopper would have.
+# Judges a PlanarWalker2D by the limits of a PlanarHopper, but it has its own.
 _planar_v0 = planar_v0
 
 
@@ -170,7 +170,7 @@ def planar_v0(trajectory):
 
 
 # %% standing_of_all_components loses 9.5
-# The share of standing is taken of the whole reward, costs included.
+# Divides sum(alive) by the sum of the whole reward for "standing", but effort and steps backwards should be left out.
 _gait = gait
 
 
@@ -181,7 +181,7 @@ def gait(trajectory):
 
 
 # %% each_in_its_own_version loses 9.6
-# Records each robot in the version whose name it has.
+# Records each robot in the version that its key names, but all of them should be recorded in version 5.
 # -     runner, table = Runner(f"{robot}-v5"), {}
 # +     table = {}
 # -         means = []
@@ -189,7 +189,7 @@ def gait(trajectory):
 
 
 # %% evolves_a_tenth loses 9.6
-# Stops long before the budget is used up.
+# Stops each evolution after about a tenth of `steps`, but all of them should be used.
 _evolve_both = evolve_both
 
 
@@ -198,7 +198,7 @@ def evolve_both(robot, steps, seeds):
 
 
 # %% one_episode_for_all loses 9.6
-# Plays the same episode over and over.
+# Counts only the episode with the seed itself, once or several times, but the mean over the seeds seed, seed + 1, ... is asked for.
 _compare = compare
 
 
@@ -207,7 +207,7 @@ def compare(robot, genotypes, seed, episodes):
 
 
 # %% one_mean_for_all_robots loses 9.6
-# Takes the mean over the robots, too.
+# Gives one number, the mean over all robots of a version, but a number for each row is asked for.
 _compare = compare
 
 
@@ -220,7 +220,7 @@ def compare(robot, genotypes, seed, episodes):
 
 
 # %% one_replication_for_all loses 9.6
-# Evolves every replication with the same seed.
+# Evolves every robot with the first of the seeds, but each seed should have its own evolution.
 _evolve_both = evolve_both
 
 
@@ -229,7 +229,7 @@ def evolve_both(robot, steps, seeds):
 
 
 # %% recorded_in_version_0 loses 9.6
-# Records all robots in version 0.
+# Records all robots in version 0, but version 5 is asked for.
 # -     runner, table = Runner(f"{robot}-v5"), {}
 # +     table = {}
 # -         means = []
@@ -237,7 +237,7 @@ def evolve_both(robot, steps, seeds):
 
 
 # %% versions_swapped loses 9.6
-# Calls the robots of each version by the name of the other.
+# Puts the robots that evolve in version 5 under "v0" and those of version 0 under "v5", but it should be the other way round.
 _evolve_both = evolve_both
 
 
@@ -247,43 +247,43 @@ def evolve_both(robot, steps, seeds):
 
 
 # %% standing_at_the_limit loses 9.1
-# A robot exactly at the lowest height counts as standing.
+# Counts an Ant exactly 0.26 m high as standing, but its height should be above 0.26.
 # -         return np.where(height > 0.26, 1.0, -1.0)
 # +         return np.where(height >= 0.26, 1.0, -1.0)
 
 
 # %% leaning_at_the_limit loses 9.1
-# A pitch of exactly 1 counts as upright.
+# Counts a pitch of exactly 1 or -1 as upright, but abs(pitch) should be below 1.
 # -     upright = np.abs(pitch) < 1
 # +     upright = np.abs(pitch) <= 1
 
 
 # %% limits_include_099 loses 9.2
-# A joint exactly at 0.99 counts as one at its limit.
+# Counts a joint exactly at 0.99 or -0.99 as at its limit, but only those above 0.99 or below -0.99 are.
 # -     return -0.1 * (np.abs(positions) > 0.99).sum(axis=1)
 # +     return -0.1 * (np.abs(positions) >= 0.99).sum(axis=1)
 
 
 # %% hopper_stands_at_07 loses 9.5
-# A PlanarHopper exactly 0.7 m high counts as standing.
+# Gives a PlanarHopper that is exactly 0.7 m high the bonus, but its height should be above 0.7.
 # -         alive = np.where((height > 0.7) & (np.abs(pitch) < 0.2), 1.0, 0.0)
 # +         alive = np.where((height >= 0.7) & (np.abs(pitch) < 0.2), 1.0, 0.0)
 
 
 # %% walker_stands_at_2 loses 9.5
-# A PlanarWalker2D exactly 2 m high counts as standing.
+# Gives a PlanarWalker2D that is exactly 2 m high the bonus, but its height should be below 2.
 # -         alive = np.where((height > 0.8) & (height < 2) & (np.abs(pitch) < 1), 1.0, 0.0)
 # +         alive = np.where((height > 0.8) & (height <= 2) & (np.abs(pitch) < 1), 1.0, 0.0)
 
 
 # %% net_progress loses 9.5
-# Steps backwards are subtracted from the income, but they should be left out.
+# Adds up all progress for "standing", steps backwards included (and takes 0 if the sum is negative), but only the steps forward should be added up.
 # -     alive, moved = (float(np.maximum(parts[key], 0).sum()) for key in ("alive", "progress"))
 # +     alive, moved = (max(0.0, float(parts[key].sum())) for key in ("alive", "progress"))
 
 
 # %% every_robot_must_be_upright loses 9.1
-# Ant and Humanoid must be upright, too, which the table does not ask of them.
+# Counts an Ant or a Humanoid with |pitch| of 1 or more as fallen, but only their height should matter.
 # says: this
 # -         return np.where(height > 0.26, 1.0, -1.0)
 # +         return np.where((height > 0.26) & (np.abs(pitch) < 1), 1.0, -1.0)
@@ -292,28 +292,28 @@ def evolve_both(robot, steps, seeds):
 
 
 # %% no_shin_on_the_floor loses 9.1
-# Shins and thighs on the floor end the bonus of Hopper and Walker2D, too.
+# Counts a Hopper or a Walker2D as fallen where `touching` is 1, but this should matter for a HalfCheetah only.
 # says: this
 # -     return np.where(upright & (height > 0.8), 1.0, -1.0)
 # +     return np.where(upright & (height > 0.8) & (touching == 0), 1.0, -1.0)
 
 
 # %% progress_without_direction loses 9.1
-# Going away counts as much as coming nearer: progress is never negative.
+# Counts going away as much as coming nearer, but going away should be negative.
 # says: this
 # -     return (distance[:-1] - distance[1:]) / duration
 # +     return np.abs(distance[:-1] - distance[1:]) / duration
 
 
 # %% progress_since_the_start loses 9.1
-# The progress of each step is measured from the start of the episode.
+# Measures the progress of each step from the start of the episode, but the distance just before the step should be used.
 # says: this
 # -     return (distance[:-1] - distance[1:]) / duration
 # +     return (distance[0] - distance[1:]) / duration
 
 
 # %% progress_overwrites_the_distances loses 9.1
-# The distances are divided by the duration in the caller's own array.
+# Changes the array `distance` that it is given, but a new array is asked for.
 # says: in place
 # -     return (distance[:-1] - distance[1:]) / duration
 # +     distance /= duration
@@ -321,7 +321,7 @@ def evolve_both(robot, steps, seeds):
 
 
 # %% humanoid_pays_for_speed_alone loses 9.2
-# A Humanoid pays 4.25 times as much for action times speed, but not for the squared action.
+# Multiplies only the part with |action * speed| by 4.25 for a Humanoid, but the part with the squared action should be multiplied, too.
 # says: this
 # -     return -cost * (4.25 if robot == "Humanoid" else 1.0)
 # +     more = 6.5 * np.abs(actions * speeds).mean(axis=1) if robot == "Humanoid" else 0.0
@@ -329,21 +329,21 @@ def evolve_both(robot, steps, seeds):
 
 
 # %% one_joint_at_its_limit_is_enough loses 9.2
-# A step costs 0.1 if any joint is at its limit, however many there are.
+# Charges 0.1 if any joint is at its limit, but 0.1 for each such joint is asked for.
 # says: this
 # -     return -0.1 * (np.abs(positions) > 0.99).sum(axis=1)
 # +     return -0.1 * (np.abs(positions) > 0.99).any(axis=1)
 
 
 # %% past_the_limit_is_free loses 9.2
-# A joint that is past its limit is not counted: only those between 0.99 and 1 are.
+# Leaves out joints past their limits, such as 1.2, but all joints above 0.99 or below -0.99 should count.
 # says: this
 # -     return -0.1 * (np.abs(positions) > 0.99).sum(axis=1)
 # +     return -0.1 * ((np.abs(positions) > 0.99) & (np.abs(positions) <= 1)).sum(axis=1)
 
 
 # %% effort_only_while_standing loses 9.3
-# A robot that has fallen pays nothing for electricity.
+# Sets the electricity to 0 where the robot has fallen, but it should cost the same then.
 # -     robot = trajectory["robot"]
 # -     return {
 # +     robot = trajectory["robot"]
@@ -357,13 +357,13 @@ def evolve_both(robot, steps, seeds):
 
 
 # %% takes_the_trajectory_apart loses 9.3
-# The actions are taken out of the trajectory, which others still need.
+# Changes the dict `trajectory` that it is given, but it should stay as it is.
 # -         "electricity": electricity(robot, trajectory["actions"], trajectory["speeds"]),
 # +         "electricity": electricity(robot, trajectory.pop("actions"), trajectory["speeds"]),
 
 
 # %% humanoid_is_paid_while_it_stands loses 9.4
-# A Humanoid gets the 1 only while it stands.
+# Gives a Humanoid its 1 only where its height is above 0.78, but 1 in every step is asked for.
 # says: this
 # -         reward = reward + 1 - 10 * beyond - 0.1 * trajectory["heading"] ** 2
 # +         stands = trajectory["height"] > 0.78
@@ -371,76 +371,76 @@ def evolve_both(robot, steps, seeds):
 
 
 # %% beyond_one_limit_only loses 9.4
-# Joints are past their limits on the upper side only.
+# Counts only joints above 1 for beyond, but those below -1 are past their limits, too.
 # says: this
 # -         beyond = np.maximum(np.abs(positions) - 1, 0).sum(axis=1)
 # +         beyond = np.maximum(positions - 1, 0).sum(axis=1)
 
 
 # %% beyond_from_099 loses 9.4
-# A joint is past its limit from 0.99 on, where it counts as being at the limit.
+# Lets beyond begin at 0.99, but max(0, |position| - 1) is asked for.
 # says: this
 # -         beyond = np.maximum(np.abs(positions) - 1, 0).sum(axis=1)
 # +         beyond = np.maximum(np.abs(positions) - 0.99, 0).sum(axis=1)
 
 
 # %% ant_pays_for_every_joint loses 9.4
-# An Ant pays for the sum of the squared actions, not for their mean.
+# Takes the sum of an Ant's squared actions, but their mean is asked for.
 # says: this
 # -         reward = reward + 0.01 - 0.01 * (trajectory["actions"] ** 2).mean(axis=1)
 # +         reward = reward + 0.01 - 0.01 * (trajectory["actions"] ** 2).sum(axis=1)
 
 
 # %% walker_as_tall_as_it_likes loses 9.5
-# A PlanarWalker2D that flies higher than 2 m counts as standing.
+# Leaves out the highest height of a PlanarWalker2D, but only below 2 m should it get the bonus.
 # says: this
 # -         alive = np.where((height > 0.8) & (height < 2) & (np.abs(pitch) < 1), 1.0, 0.0)
 # +         alive = np.where((height > 0.8) & (np.abs(pitch) < 1), 1.0, 0.0)
 
 
 # %% cheetah_gets_a_bonus loses 9.5
-# A PlanarHalfCheetah gets a bonus of 1.
+# Gives a PlanarHalfCheetah an alive bonus of 1 in every step, but 0 is asked for.
 # says: this
 # -         price = 0.1
 # +         price, alive = 0.1, np.ones(len(height))
 
 
 # %% one_step_too_long loses 9.5
-# The seconds count the start as a step.
+# Counts T + 1 steps for "seconds", but there are T: the start is not a step.
 # says: this
 # -     seconds = trajectory["duration"] * len(trajectory["height"])
 # +     seconds = trajectory["duration"] * len(trajectory["distance"])
 
 
 # %% nearest_point loses 9.5
-# The metres are those to the nearest point of the way, not to its end.
+# Measures "metres" to the nearest point of the way, but the end of the way is asked for.
 # says: this
 # -     metres = float(trajectory["distance"][0] - trajectory["distance"][-1])
 # +     metres = float(trajectory["distance"][0] - trajectory["distance"].min())
 
 
 # %% speed_without_direction loses 9.5
-# The average speed of a robot that goes away is positive.
+# Gives a robot that goes away a positive "speed", but it should be negative.
 # says: this
 # -         "speed": metres / seconds,
 # +         "speed": abs(metres) / seconds,
 
 
 # %% share_of_the_feet loses 9.5
-# Grounded is the mean over the feet, not the share of steps in which one of them is down.
+# Takes the mean over the feet for "grounded", but the share of steps in which at least one foot touches the ground is asked for.
 # says: this
 # -         "grounded": float(trajectory["feet"].max(axis=1).mean()),
 # +         "grounded": float(trajectory["feet"].mean()),
 
 
 # %% standing_is_all_without_progress loses 9.5
-# A robot that earns nothing counts as one that lives on standing.
+# Gives 1.0 for "standing" when the robot earns nothing, but 0.0 is asked for.
 # -         "standing": alive / (alive + moved) if alive + moved > 0 else 0.0,
 # +         "standing": alive / (alive + moved) if moved > 0 else 1.0,
 
 
 # %% only_two_versions loses 9.6
-# The names v0 and v5 are written down: other versions are left out or missed.
+# Looks up the keys "v0" and "v5", but `genotypes` may have any keys, one or several.
 # -     for version, rows in genotypes.items():
 # -         means = []
 # +     for version in ("v0", "v5"):
@@ -448,14 +448,14 @@ def evolve_both(robot, steps, seeds):
 
 
 # %% speed_of_the_means loses 9.6
-# The mean speed is the mean distance by the mean time, not the mean of the episodes' speeds.
+# Divides the mean metres by the mean seconds for "speed", but the mean of the episodes' speeds is asked for.
 # -         table[version] = dict(zip(gaits[0], np.array(means).T, strict=True))
 # +         table[version] = dict(zip(gaits[0], np.array(means).T, strict=True))
 # +         table[version]["speed"] = table[version]["metres"] / table[version]["seconds"]
 
 
 # %% always_the_hopper loses 9.6
-# The hopper is evolved, whatever robot is asked for.
+# Evolves a PlanarHopper, whatever `robot` is, but the robot that `robot` names is asked for.
 # -         version: np.array([Runner(f"{robot}-{version}").evolve(steps, seed) for seed in seeds])
 # +         version: np.array(
 # +             [Runner(f"PlanarHopper-{version}").evolve(steps, seed) for seed in seeds]
@@ -463,13 +463,13 @@ def evolve_both(robot, steps, seeds):
 
 
 # %% other_seeds_for_version_5 loses 9.6
-# The two versions do not get the same seeds.
+# Evolves in version 5 with the seeds plus 1, but both versions should have the same seeds.
 # -         for version in ("v0", "v5")
 # +         for version, seeds in (("v0", seeds), ("v5", [seed + 1 for seed in seeds]))
 
 
 # %% seeds_counted_from_the_first loses 9.6
-# The seeds are the first one and those that follow it, whatever the list says.
+# Counts on from the first seed (seeds[0], seeds[0] + 1, ...), but the seeds of the list should be used.
 # -         version: np.array([Runner(f"{robot}-{version}").evolve(steps, seed) for seed in seeds])
 # +         version: np.array(
 # +             [
@@ -480,67 +480,67 @@ def evolve_both(robot, steps, seeds):
 
 
 # %% progress_of_the_mean loses 9.1
-# The progress is smoothed over two steps.
+# Takes the mean of each step's progress and that of the step before (0 before the first), but each step's own progress is asked for.
 # -     return (distance[:-1] - distance[1:]) / duration
 # +     change = (distance[:-1] - distance[1:]) / duration
 # +     return np.convolve(change, [0.5, 0.5])[: len(change)]
 # %% touching_or_leaning loses 9.1
-# A HalfCheetah has fallen only if it leans and touches the floor with its shins.
+# Counts a HalfCheetah as fallen only if it both leans too far and touches the floor, but one of the two is enough.
 # -         return np.where(upright & (touching == 0), 1.0, -1.0)
 # +         return np.where(upright | (touching == 0), 1.0, -1.0)
 # %% once_fallen_always_fallen loses 9.1
-# A robot that has fallen once counts as fallen until the end.
+# Counts a Hopper or a Walker2D that has fallen once as fallen in all later steps, but each step should be judged by itself.
 # -     return np.where(upright & (height > 0.8), 1.0, -1.0)
 # +     return np.where(np.logical_and.accumulate(upright & (height > 0.8)), 1.0, -1.0)
 # %% electricity_of_the_mean loses 9.2
-# The absolute value is taken of the mean over the joints, so that joints cancel out.
+# Takes the mean over the joints before the absolute value, but |action * speed| of each joint should come first.
 # -     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
 # +     cost = 2.0 * np.abs((actions * speeds).mean(axis=1)) + 0.1 * (actions**2).mean(axis=1)
 # %% limit_by_share loses 9.2
-# The share of joints at their limits is charged, not their number.
+# Charges 0.1 times the share of the joints at their limits, but 0.1 for each of them is asked for.
 # -     return -0.1 * (np.abs(positions) > 0.99).sum(axis=1)
 # +     return -0.1 * (np.abs(positions) > 0.99).mean(axis=1)
 # %% speeds_for_positions loses 9.3
-# Joints count as at their limit by their speeds instead of their positions.
+# Takes "speeds" instead of "positions" to see which joints are at their limits.
 # -         "joints_at_limit": joints_at_limit(trajectory["positions"]),
 # +         "joints_at_limit": joints_at_limit(trajectory["speeds"]),
 # %% heading_not_squared loses 9.4
-# A Humanoid pays for the heading itself, not for its square.
+# Subtracts 0.1 * |heading| for a Humanoid, but 0.1 * heading^2 is asked for.
 # -         reward = reward + 1 - 10 * beyond - 0.1 * trajectory["heading"] ** 2
 # +         reward = reward + 1 - 10 * beyond - 0.1 * np.abs(trajectory["heading"])
 # %% farthest_joint_only loses 9.4
-# A Humanoid pays for the joint that is farthest past its limit only.
+# Counts only the joint that is farthest past its limit for beyond, but the sum over all joints is asked for.
 # -         beyond = np.maximum(np.abs(positions) - 1, 0).sum(axis=1)
 # +         beyond = np.maximum(np.abs(positions) - 1, 0).max(axis=1)
 # %% ant_without_limits loses 9.4
-# An Ant does not pay for joints at their limits.
+# Leaves out joints at limit for an Ant, but they are part of its reward.
 # -     if robot == "Ant":
 # -         reward = reward + 0.01 - 0.01 * (trajectory["actions"] ** 2).mean(axis=1)
 # +     if robot == "Ant":
 # +         reward = reward - joints_at_limit(positions)
 # +         reward = reward + 0.01 - 0.01 * (trajectory["actions"] ** 2).mean(axis=1)
 # %% effort_of_absolute_actions loses 9.5
-# The effort is the sum of the absolute actions instead of their squares.
+# Adds up |action| for the effort, but action^2 is asked for.
 # -         "effort": -price * (trajectory["actions"] ** 2).sum(axis=1),
 # +         "effort": -price * np.abs(trajectory["actions"]).sum(axis=1),
 # %% cheap_cheetah loses 9.5
-# A PlanarHalfCheetah pays for its effort as little as the others.
+# Uses the factor 0.001 for the effort of a PlanarHalfCheetah, but 0.1 is asked for.
 # -         price = 0.1
 # +         price = 0.001
 # %% share_of_standing_steps loses 9.5
-# The share of standing is that of the steps in which the robot stands, not of its income.
+# Gives the share of steps in which the robot stands for "standing", but the share of its income is asked for.
 # -         "standing": alive / (alive + moved) if alive + moved > 0 else 0.0,
 # +         "standing": float(np.mean(parts["alive"] > 0)),
 # %% feet_of_the_first loses 9.5
-# Only the first foot counts as touching the ground.
+# Looks only at the first foot for "grounded", but a step counts if at least one foot touches the ground.
 # -         "grounded": float(trajectory["feet"].max(axis=1).mean()),
 # +         "grounded": float(trajectory["feet"][:, 0].mean()),
 # %% episodes_one_seed_late loses 9.6
-# The episodes begin one seed too late.
+# Plays the episodes with the seeds seed + 1, seed + 2, ..., but the first one should have the seed itself.
 # -             gaits = [gait(runner.record(genotype, seed + i)) for i in range(episodes)]
 # +             gaits = [gait(runner.record(genotype, seed + 1 + i)) for i in range(episodes)]
 # %% budget_shared loses 9.6
-# The budget is shared by the seeds instead of given to each of them.
+# Divides `steps` by the number of seeds, but each evolution should have all `steps`.
 # -         version: np.array([Runner(f"{robot}-{version}").evolve(steps, seed) for seed in seeds])
 # +         version: np.array(
 # +             [Runner(f"{robot}-{version}").evolve(steps // len(seeds), seed) for seed in seeds]
@@ -548,8 +548,8 @@ def evolve_both(robot, steps, seeds):
 
 
 # %% steps_of_pybullet loses 9.3
-# Takes 0.0165 s for the duration of a step, whatever the trajectory says.
-# says: Use the trajectory's 'duration'
+# Uses 0.0165 s for a step, whatever the trajectory says, but its "duration" should be used.
+# says: trajectory's 'duration' is asked for
 # -         "progress": progress(trajectory["distance"], trajectory["duration"]),
 # -         "alive": alive_bonus(
 # +         "progress": progress(trajectory["distance"], 0.0165),
@@ -557,7 +557,7 @@ def evolve_both(robot, steps, seeds):
 
 
 # %% evolved_once_for_each_robot loses 9.6
-# Remembers the robots, and gives them again for other steps and seeds.
+# Gives the robots of an earlier call with the same `robot` again, but steps and seeds should count in each call.
 _evolve_both, _made = evolve_both, {}
 
 
@@ -568,13 +568,13 @@ def evolve_both(robot, steps, seeds):
 
 
 # %% rows_of_the_first_version loses 9.6
-# Counts the robots of the first version, and leaves out what another has more.
+# Gives each key no more rows than the first key has, but all rows of each key are asked for.
 # -         for genotype in rows:
 # +         for genotype in rows[: len(next(iter(genotypes.values())))]:
 
 
 # %% seeds_sorted loses 9.6
-# Sorts the seeds, and uses each once.
+# Sorts the seeds and uses each only once, but a row for each seed of the list, in its order, is asked for.
 # says: It is the robot of the seed
 # -         version: np.array([Runner(f"{robot}-{version}").evolve(steps, seed) for seed in seeds])
 # +         version: np.array(
@@ -583,14 +583,14 @@ def evolve_both(robot, steps, seeds):
 
 
 # %% median_of_the_episodes loses 9.6
-# Takes the median over the episodes, not the mean.
+# Takes the median over the episodes, but the mean is asked for.
 # says: median over the episodes
 # -             means.append([np.mean([each[name] for each in gaits]) for name in gaits[0]])
 # +             means.append([np.median([each[name] for each in gaits]) for name in gaits[0]])
 
 
 # %% seed_runs_on_from_row_to_row loses 9.6
-# Goes on counting the seeds with the next robot.
+# Goes on counting the seed from one robot to the next, but each robot should begin with the seed itself.
 # says: runs on from row to row
 # -             gaits = [gait(runner.record(genotype, seed + i)) for i in range(episodes)]
 # +             first = seed + episodes * len(means)
@@ -598,8 +598,8 @@ def evolve_both(robot, steps, seeds):
 
 
 # %% the_effort_reduces_the_income loses 9.5
-# Subtracts the effort from the income.
-# says: Effort is no income|this slip
+# Subtracts the effort from the income for "standing", but it should be left out.
+# says: effort is subtracted from the income|this slip
 # -         "standing": alive / (alive + moved) if alive + moved > 0 else 0.0,
 # +         "standing": alive / float(alive + moved + parts["effort"].sum())
 # +         if alive + moved > 0
@@ -607,21 +607,21 @@ def evolve_both(robot, steps, seeds):
 
 
 # %% square_of_the_mean_action loses 9.2
-# Squares the mean of the actions.
-# says: not to the square of the mean
+# Squares the mean of the actions, but the mean of the squared actions is asked for.
+# says: square of the mean action
 # -     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
 # +     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * actions.mean(axis=1) ** 2
 
 
 # %% radians_for_tens loses 9.2
-# Turns the speeds into radians per second.
-# says: do not multiply them by 10
+# Multiplies the mean of |action * speed| by 20, but 2 is asked for: the speeds should stay in units of 10 rad/s.
+# says: should stay in units of 10
 # -     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
 # +     cost = 20.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
 
 
 # %% limits_are_standing loses 9.1
-# A robot exactly at a limit counts as standing: compare with `>` and `<`.
+# Counts a robot exactly at a limit as standing, but `>` and `<` are asked for, not `>=` and `<=`.
 # says: this
 def alive_bonus(robot, height, pitch, touching):
     if robot in ("Ant", "Humanoid"):
@@ -632,14 +632,14 @@ def alive_bonus(robot, height, pitch, touching):
 
 
 # %% fallen_humanoid_pays_two loses 9.1
-# A fallen Humanoid pays its bonus of 2: all the fallen pay 1.
-# says: all pay 1
+# Gives a fallen Humanoid -2, but -1 is asked for.
+# says: should get -1
 # -         return np.where(height > 0.78, 2.0, -1.0)
 # +         return np.where(height > 0.78, 2.0, -2.0)
 
 
 # %% walker_as_an_ant loses 9.1
-# A Walker2D has fallen when an Ant would have.
+# Judges a Walker2D as an Ant, by height > 0.26 alone, but height > 0.8 and |pitch| < 1 are asked for.
 # says: limit of the Ant|when an Ant|not above 0.8
 # -     if robot == "Ant":
 # -         return np.where(height > 0.26, 1.0, -1.0)
@@ -648,8 +648,8 @@ def alive_bonus(robot, height, pitch, touching):
 
 
 # %% components_added_up loses 9.3
-# The components are added up over the episode: they are for each step.
-# says: this is their sum
+# Gives the sum of each component over the episode, but an array with a number for each step is asked for.
+# says: This is the sum over the steps
 _components_v0 = components_v0
 
 
@@ -658,15 +658,15 @@ def components_v0(trajectory):
 
 
 # %% pitch_for_height loses 9.3
-# Height and pitch are exchanged.
+# Exchanges height and pitch for the alive bonus, but alive_bonus takes height first.
 # says: alive_bonus takes height first
 # -             robot, trajectory["height"], trajectory["pitch"], trajectory["touching"]
 # +             robot, trajectory["pitch"], trajectory["height"], trajectory["touching"]
 
 
 # %% mean_beyond_and_size_of_heading loses 9.4
-# Takes the mean of beyond over the joints, and the size of the heading.
-# says: not their mean. The heading is to be squared
+# Takes the mean over the joints for beyond, and |heading|, but the sum over the joints and heading^2 are asked for.
+# says: but their sum is asked for\. \|heading\| is taken
 # -         beyond = np.maximum(np.abs(positions) - 1, 0).sum(axis=1)
 # -         reward = reward + 1 - 10 * beyond - 0.1 * trajectory["heading"] ** 2
 # +         beyond = np.maximum(np.abs(positions) - 1, 0).mean(axis=1)
@@ -674,23 +674,23 @@ def components_v0(trajectory):
 
 
 # %% bonus_of_version_0 loses 9.4
-# A Humanoid gets the alive bonus of version 0 in place of 1.
-# says: not the alive bonus of version 0
+# Gives a Humanoid 2 while it stands and -1 when it has fallen, but 1 in every step is asked for.
+# says: gets the alive bonus of version 0
 # -         reward = reward + 1 - 10 * beyond - 0.1 * trajectory["heading"] ** 2
 # +         alive = np.where(trajectory["height"] > 0.78, 2, -1)
 # +         reward = reward + alive - 10 * beyond - 0.1 * trajectory["heading"] ** 2
 
 
 # %% limits_subtracted loses 9.4
-# The cost of joints at their limits is subtracted, but it is negative already: add it.
+# Subtracts joints at limit, which is negative already, but it should be added.
 # says: this
 # -     reward = reward + joints_at_limit(positions)
 # +     reward = reward - joints_at_limit(positions)
 
 
 # %% limits_of_pybullet loses 9.5
-# Planar runners have fallen when PyBullet's robots would have: they have limits of their own.
-# says: limits of their own
+# Judges planar runners by the limits of PyBullet's Hopper and Walker2D (height > 0.8, |pitch| < 1), but they have their own.
+# says: their own table
 _planar_v0 = planar_v0
 
 
@@ -701,15 +701,15 @@ def planar_v0(trajectory):
 
 
 # %% standing_by_moving loses 9.5
-# Divides the pay for standing by that for progress: divide by their sum.
-# says: not alive by all of the income
+# Divides sum(alive) by sum(progress) for "standing", but it should be divided by the sum of both.
+# says: divided by the sum of both
 # -         "standing": alive / (alive + moved) if alive + moved > 0 else 0.0,
 # +         "standing": alive / moved if moved > 0 else 0.0,
 
 
 # %% backwards_is_subtracted loses 9.5
-# Steps backwards are subtracted from the sum: leave them out, one by one.
-# says: Steps backwards are left out
+# Subtracts steps backwards from the income for "standing", which may even become negative, but they should be left out.
+# says: Steps backwards are subtracted
 # -     alive, moved = (float(np.maximum(parts[key], 0).sum()) for key in ("alive", "progress"))
 # +     alive, moved = (float(parts[key].sum()) for key in ("alive", "progress"))
 # -         "standing": alive / (alive + moved) if alive + moved > 0 else 0.0,
@@ -717,15 +717,15 @@ def planar_v0(trajectory):
 
 
 # %% sums_over_the_episodes loses 9.6
-# The table holds sums over the episodes, not means.
+# Gives the sums over the episodes, but their means are asked for.
 # says: sums over the episodes
 # -             means.append([np.mean([each[name] for each in gaits]) for name in gaits[0]])
 # +             means.append([np.sum([each[name] for each in gaits]) for name in gaits[0]])
 
 
 # %% means_over_the_rows loses 9.6
-# The table has a number for each episode, the mean over the robots.
-# says: one for each episode
+# Gives a number for each episode, the mean over the robots, but a number for each robot, the mean over its episodes, is asked for.
+# says: for each episode, the mean over the rows
 # -         means = []
 # -         for genotype in rows:
 # -             gaits = [gait(runner.record(genotype, seed + i)) for i in range(episodes)]
@@ -735,14 +735,14 @@ def planar_v0(trajectory):
 
 
 # %% backwards_leaves_no_income loses 9.5
-# Steps backwards are subtracted from the sum, so that a robot that goes back has no income.
-# says: Steps backwards are left out
+# Subtracts steps backwards from the income, and gives 0.0 for "standing" if the rest is not above 0, but they should be left out.
+# says: Steps backwards are subtracted
 # -     alive, moved = (float(np.maximum(parts[key], 0).sum()) for key in ("alive", "progress"))
 # +     alive, moved = (float(parts[key].sum()) for key in ("alive", "progress"))
 
 
 # %% electricity_by_time loses 9.3
-# The electricity is multiplied by the duration of a step.
+# Multiplies the electricity by the duration of a step, but the duration should not matter for it.
 # says: multiplied by the duration
 # -         "electricity": electricity(robot, trajectory["actions"], trajectory["speeds"]),
 # +         "electricity": trajectory["duration"]
@@ -750,15 +750,15 @@ def planar_v0(trajectory):
 
 
 # %% recorded_as_hoppers loses 9.6
-# All robots are recorded as hoppers, whatever robot is given.
+# Records all robots as PlanarHoppers, but the robot that `robot` names is asked for.
 # says: the `robot` that is given
 # -     runner, table = Runner(f"{robot}-v5"), {}
 # +     runner, table = Runner("PlanarHopper-v5"), {}
 
 
 # %% humanoid_pays_for_work_alone loses 9.3
-# A Humanoid pays 4.25 times the work, but not 4.25 times the squared action.
-# says: this|4.25 times the squared action, too
+# Multiplies only the part with |action * speed| by 4.25 for a Humanoid, but the part with the squared action should be multiplied, too.
+# says: this|its mean squared action should be, too
 def components_v0(trajectory, _components=components_v0):
     parts = _components(trajectory)
     if trajectory["robot"] == "Humanoid":
@@ -768,7 +768,7 @@ def components_v0(trajectory, _components=components_v0):
 
 
 # %% components_kept loses 9.3
-# The components of a trajectory are kept, and given for another one of the same robot and length.
+# Gives the components of an earlier trajectory of the same robot and length again, but each trajectory should have its own.
 # says: something stays from call to call
 _components_v0, kept_components = components_v0, {}
 
@@ -779,14 +779,14 @@ def components_v0(trajectory):
 
 
 # %% feet_as_if_independent loses 9.5
-# Computes the share with a foot on the ground from the shares of the feet, as if independent.
+# Computes "grounded" from the share of each foot as if the feet were independent, but steps with at least one foot down should be counted.
 # says: this
 # -         "grounded": float(trajectory["feet"].max(axis=1).mean()),
 # +         "grounded": float(1 - np.prod(1 - trajectory["feet"].mean(axis=0))),
 
 
 # %% whole_steps_left_out loses 9.5
-# Leaves out the bonus of each step backwards, too: each component counts by itself.
+# Leaves out the alive bonus of steps backwards, too, but only a component that is itself negative should be left out.
 # says: this
 # -     alive, moved = (float(np.maximum(parts[key], 0).sum()) for key in ("alive", "progress"))
 # +     kept = (parts["alive"] >= 0) & (parts["progress"] >= 0)
@@ -794,7 +794,7 @@ def components_v0(trajectory):
 
 
 # %% one_dict_for_both_versions loses 9.6
-# Both versions have one and the same dict: it holds the gaits of the last one.
+# Gives the gaits of the last key for every key, but each key should have its own.
 # says: this
 # -     runner, table = Runner(f"{robot}-v5"), {}
 # +     runner, table, kept = Runner(f"{robot}-v5"), {}, {}
@@ -804,49 +804,49 @@ def components_v0(trajectory):
 
 
 # %% an_ant_pays_like_a_humanoid loses 9.2
-# An Ant pays 4.25 times as much, too: only a Humanoid does.
+# Multiplies the cost of an Ant by 4.25, too, but only a Humanoid should pay 4.25 times as much.
 # says: this
 # -     return -cost * (4.25 if robot == "Humanoid" else 1.0)
 # +     return -cost * (4.25 if robot in ("Ant", "Humanoid") else 1.0)
 
 
 # %% limit_of_09 loses 9.2
-# A joint counts as at its limit beyond 0.9 here: 0.99 is the limit.
+# Counts joints at 0.97 or 0.99 as at their limits, but only those above 0.99 or below -0.99 are.
 # says: this
 # -     return -0.1 * (np.abs(positions) > 0.99).sum(axis=1)
 # +     return -0.1 * (np.abs(positions) > 0.9).sum(axis=1)
 
 
 # %% price_by_distance loses 9.2
-# A joint pays for how far it is beyond 0.99: each one there costs the same, 0.1.
+# Charges a joint for how far it is beyond 0.99, but each joint beyond it should cost 0.1.
 # says: this
 # -     return -0.1 * (np.abs(positions) > 0.99).sum(axis=1)
 # +     return -0.1 * np.maximum(np.abs(positions) - 0.99, 0).sum(axis=1)
 
 
 # %% hopper_has_a_highest_height loses 9.5
-# A PlanarHopper has a highest height here, 2 m: only a PlanarWalker2D has one.
+# Gives a PlanarHopper no bonus from a height of about 2 m on, but only a PlanarWalker2D has a highest height.
 # says: this
 # -         alive = np.where((height > 0.7) & (np.abs(pitch) < 0.2), 1.0, 0.0)
 # +         alive = np.where((height > 0.7) & (height < 2) & (np.abs(pitch) < 0.2), 1.0, 0.0)
 
 
 # %% square_of_the_sum loses 9.5
-# The effort is the square of the sum of the actions, not the sum of their squares.
+# Squares the sum of the actions for the effort, but the sum of their squares is asked for.
 # says: this
 # -         "effort": -price * (trajectory["actions"] ** 2).sum(axis=1),
 # +         "effort": -price * trajectory["actions"].sum(axis=1) ** 2,
 
 
 # %% metres_not_below_0 loses 9.5
-# The metres of a robot that goes away are 0 here: they are negative.
+# Gives 0 for the "metres" of a robot that goes away, but a negative number is asked for.
 # says: this
 # -     metres = float(trajectory["distance"][0] - trajectory["distance"][-1])
 # +     metres = max(0.0, float(trajectory["distance"][0] - trajectory["distance"][-1]))
 
 
 # %% ant_pays_like_a_humanoid_in_version_5 loses 9.4
-# An Ant pays for beyond and for its heading, too, and gets 1: only a Humanoid does.
+# Adds 1 and subtracts beyond and heading for an Ant, too, but these terms belong to a Humanoid only.
 # says: this
 # -     if robot == "Humanoid":
 # -         beyond = np.maximum(np.abs(positions) - 1, 0).sum(axis=1)
@@ -855,28 +855,28 @@ def components_v0(trajectory):
 
 
 # %% share_of_the_foot_most_down loses 9.5
-# Grounded is the share of the foot that is down most, not that of the steps in which any foot is down.
+# Gives the share of the foot that is down most for "grounded", but the share of steps with at least one foot down is asked for.
 # says: this
 # -         "grounded": float(trajectory["feet"].max(axis=1).mean()),
 # +         "grounded": float(trajectory["feet"].mean(axis=0).max()),
 
 
 # %% walker_pays_for_joints loses 9.4
-# Walker2D is charged for its joints at limits, but its reward is the progress alone.
+# Charges Walker2D for joints at their limits, but its reward should be the progress alone.
 # says: this
 # -     if robot in ("Hopper", "Walker2D"):
 # +     if robot == "Hopper":
 
 
 # %% only_around_one loses 9.2
-# Counts joints between 0.99 and 1.01 only: a joint that is bent beyond counts, too.
+# Counts joints at exactly 0.99, and leaves out those past their limits, such as 1.2, but all above 0.99 or below -0.99 should count, and no others.
 # says: this
 # -     return -0.1 * (np.abs(positions) > 0.99).sum(axis=1)
 # +     return -0.1 * np.isclose(np.abs(positions), 1.0, atol=0.01).sum(axis=1)
 
 
 # %% nothing_after_a_fall loses 9.3
-# All components are 0 after the first step in which the robot has fallen: each step is judged by itself.
+# Sets all components to 0 after the first fall, except for a HalfCheetah, but steps after a fall should count like all others.
 # says: this
 def components_v0(trajectory):
     name = trajectory["robot"]
@@ -896,21 +896,21 @@ def components_v0(trajectory):
 
 
 # %% beyond_of_the_sum loses 9.4
-# Beyond is taken of the sum over the joints, so that a joint within its limits makes up for one past them.
+# Compares the sum of all |position| with the number of joints for beyond, but max(0, |position| - 1) of each joint should be added up.
 # says: this
 # -         beyond = np.maximum(np.abs(positions) - 1, 0).sum(axis=1)
 # +         beyond = np.maximum(np.abs(positions).sum(axis=1) - positions.shape[1], 0)
 
 
 # %% one_touch_for_all_steps loses 9.1
-# A HalfCheetah that touches the floor in one step counts as fallen in all.
+# Gives a HalfCheetah -1 in every step, even while it stands, but each step should be judged by itself.
 # says: this
 # -         return np.where(upright & (touching == 0), 1.0, -1.0)
 # +         return np.where(upright & (not touching.any()), 1.0, -1.0)
 
 
 # %% only_the_outermost_joints loses 9.2
-# Looks at the lowest and the highest position only: each joint at its limit costs 0.1.
+# Counts at most one joint above 0.99 and one below -0.99 in each step, but each joint at its limit should cost 0.1.
 # says: this
 def joints_at_limit(positions: np.ndarray) -> np.ndarray:
     costs = []
@@ -925,7 +925,7 @@ def joints_at_limit(positions: np.ndarray) -> np.ndarray:
 
 
 # %% last_episode_counts_half loses 9.6
-# Takes (mean + new) / 2 from episode to episode, so that the last one counts half.
+# Counts the last episode half, the one before it a quarter, and so on, but all episodes should count alike.
 # says: this|counts half
 import numpy as np
 
