@@ -185,8 +185,8 @@ def test_other_styles_are_quoted_as_far_as_the_text_has_them(part, own, other):
         ((0, 0), ""),
         ((-900, 0, 0), ""),
         ((0, -900, 0), ""),
-        ((0, -900, -900), "Of the 3 seeds that are graded, 1 is good enough"),
-        ((-900, -900), "Of the 2 seeds that are graded, 0 are good enough"),
+        ((0, -900, -900), "With 3 seeds, 1 controller is good enough"),
+        ((-900, -900), "With 2 seeds, 0 controllers are good enough"),
     ],
 )
 def test_a_third_seed_decides_about_a_training_with_an_unlucky_one(monkeypatch, means, told):

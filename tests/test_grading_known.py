@@ -19,7 +19,7 @@ from botschool.grading.judge import explaining, judging
 from botschool.grading.judge import known as replay
 from botschool.grading.judge.afresh import AGAIN, KEPT, kept_something
 from botschool.grading.judge.alike import distance, fits, weight
-from botschool.grading.judge.known import TOLD
+from botschool.grading.judge.known import TOLD, line_about
 from botschool.grading.judge.looking import Failure
 from botschool.grading.judge.smallest import _smaller, difference, smallest_case
 from botschool.grading.packed import pack
@@ -52,19 +52,19 @@ MISTAKES = '''"""Wrong solutions."""
 
 
 # %% by_n loses 3.1
-# The sum is divided by n instead of n - 1.
+# Divides the sum by n instead of n - 1.
 # -     spread_marks_our_own_first = np.std(values, ddof=1)
 # +     spread_marks_our_own_first = np.std(values)
 
 
 # %% half_range loses 3.1
-# Half of the distance from the smallest to the largest value is returned.
+# Gives half of the distance from the smallest to the largest value is returned.
 def spread(values):
     return float(np.ptp(values)) / 2
 
 
 # %% from_one loses 3.2
-# The count of the steps begins at 1.
+# Counts the steps from 1.
 def walk(step, many):
     return [step(i) for i in range(1, many + 1)]
 '''
@@ -108,7 +108,7 @@ def messages(messages):
 def test_a_known_mistake_leads_the_message(messages):
     first, second = messages(RIGHT + BY_N)
     lines = first.splitlines()
-    assert lines[0] == f"{TOLD} The sum is divided by n instead of n - 1."
+    assert lines[0] == line_about("Divides the sum by n instead of n - 1.")
     assert lines[1].startswith("spread(...) returned 1.24722, but 1.52753 was expected")
     assert second == ""
 
@@ -118,7 +118,7 @@ def test_so_does_one_that_a_driver_meets(messages):
         "len(x)", "(len(x) - 1)"
     )
     first, second = messages(text)
-    assert first == "" and second.startswith(f"{TOLD} The count of the steps begins at 1.")
+    assert first == "" and second.startswith(line_about("Counts the steps from 1."))
 
 
 def test_one_input_is_not_enough(messages):
@@ -151,7 +151,7 @@ def test_a_mistake_that_raises_the_same_is_proof(messages):
         + """
 
 # %% no_root_of_five loses 3.1
-# Five values are too many.
+# Takes five values for too many.
 def spread(values):
     if len(values) == 5:
         raise ValueError("five")
@@ -168,7 +168,7 @@ def spread(x):
     return float(np.std(x, ddof=0 if len(x) < 4 else 1))
 """
     )
-    told = f"{TOLD} Five values are too many."
+    told = line_about("Takes five values for too many.")
     assert messages(text.format(said="five"), declared(inputs, raising))[0].startswith(told)
     assert TOLD not in messages(text.format(said="six"), declared(inputs, raising))[0]
     assert TOLD not in messages(text.format(said="five"), declared(inputs[1:], raising))[0]
@@ -270,7 +270,7 @@ def test_a_mistake_that_fits_no_more_is_left_out(messages):
         read_cases(3, text)[0].of(SOLUTION)
     assert TOLD not in messages(RIGHT + BY_N, declared(mistakes=text))[0]
     half = "def spread(x): return (max(x) - min(x)) / 2\n"
-    assert "Half of the distance" in messages(RIGHT + half, declared(mistakes=text))[0]
+    assert "half of the distance" in messages(RIGHT + half, declared(mistakes=text))[0]
 
 
 def test_the_smallest_failing_case_is_told(messages, monkeypatch):
@@ -482,7 +482,7 @@ def test_a_packed_grader_knows_them_and_shows_nothing(messages, tmp_path):
     names = {"__file__": str(tmp_path / "test_three.py")}
     exec(packed, names)
     (first,) = messages(BY_N.replace("np.", "__import__('numpy')."), names["exercise"])
-    assert first.startswith(f"{TOLD} The sum is divided by n instead of n - 1.")
+    assert first.startswith(line_about("Divides the sum by n instead of n - 1."))
 
 
 def test_a_packed_grader_takes_the_slips_beside_it_along(messages, tmp_path, monkeypatch):
@@ -555,7 +555,7 @@ NAMES = '''"""Wrong solutions."""
 # -     name = "sum"
 # +     name = f"sum{values[0]}"
 # %% total loses 3.1
-# The file has another name.
+# Gives the file another name.
 # -     name = "sum"
 # +     name = "total"
 '''
@@ -582,7 +582,7 @@ def test_files_of_one_mistake_do_not_hide_another(messages, monkeypatch):
     exercise.knows(SAVED, NAMES)
     monkeypatch.setattr(replay, "_near", lambda ours, texts, *_: [True] * len(texts))
     (told,) = messages(SAVED.replace('"sum"', '"total"'), exercise)
-    assert told.splitlines()[0] == f"{TOLD} The file has another name."
+    assert told.splitlines()[0] == line_about("Gives the file another name.")
 
 
 def test_a_random_answer_is_not_taken_for_one_that_stays_from_call_to_call():

@@ -5,7 +5,6 @@ import pytest
 from botschool.grading import Exercise, expect, expect_close
 from botschool.grading.judge import known as replay
 from botschool.grading.judge.evidence import may_be_true
-from botschool.grading.judge.known import TOLD
 from botschool.grading.judge.sentences import Variation
 from tiny_course import FILE
 
@@ -175,23 +174,23 @@ def test_exceptions_alone_prove_no_slip(messages):
 
 TWO = '''"""Wrong solutions."""
 # %% counts_all loses 3.1
-# The values outside are counted, too.
+# Counts the values outside, too.
 # -     many = len(hidden)
 # +     many = len(values)
 # %% doubled loses 3.1
-# A value below counts double.
+# Counts a value below double.
 # -             below += value
 # +             below += 2 * value
 # %% without_effect loses 3.1
-# The values are copied.
+# Copies the values.
 # -     hidden, below = [], 0
 # +     hidden, below, values = [], 0, list(values)
 # %% in_another_task loses 3.2, 3.1
-# The values are negative.
+# Makes the values negative.
 # -     many = len(hidden)
 # +     many = -len(hidden)
 # %% fits_no_more loses 3.1
-# A line is gone.
+# Leaves a line out.
 # -     gone = 1
 # +     gone = 2
 '''
@@ -206,15 +205,15 @@ def test_two_known_mistakes_at_once_are_named(messages, monkeypatch):
     exercise = bounded()
     exercise.knows(BOUNDS, TWO)
     (told,) = messages(WITH_BOTH, exercise)
-    both = "The values outside are counted, too. A value below counts double."
+    both = "counts the values outside, too. And it counts a value below double."
     assert told.splitlines()[0] == f"{replay.BOTH} {both}"
     (told,) = messages(WITH_BOTH.replace("2 * v", "3 * v"), exercise)
     assert replay.BOTH not in told
     (told,) = messages(WITH_BOTH.replace("2 * v", "v"), exercise)
-    assert told.splitlines()[0] == f"{TOLD} The values outside are counted, too."
+    assert told.splitlines()[0] == replay.line_about("Counts the values outside, too.")
     monkeypatch.setattr(replay, "_likely_first", lambda *_: [])  # no time for single ones
     (told,) = messages(WITH_BOTH.replace("2 * v", "v"), exercise)
-    assert told.splitlines()[0] == f"{TOLD} The values outside are counted, too."
+    assert told.splitlines()[0] == replay.line_about("Counts the values outside, too.")
 
 
 UNDONE = """# %% in_a_list loses 3.1

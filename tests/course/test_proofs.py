@@ -13,7 +13,7 @@ from botschool.grading.classes.batch import Grades, Job
 from botschool.grading.copies.release import release, released_files
 from botschool.grading.copies.skeleton import find_leaks, pairs
 from botschool.grading.declare.mistakes import THIS
-from botschool.grading.judge.known import TOLD
+from botschool.grading.judge.known import TOLD, line_about
 from botschool.grading.report.hints import read_hints
 
 MUTANTS = building.cases("mutants")
@@ -116,6 +116,8 @@ def test_there_are_mutants(number):
     own = [case for case in MUTANTS if case.number == number]
     assert len({case.submission for case in own}) == len({case.name for case in own}) == len(own)
     assert all(case.loses for case in own)
+    for case in own:  # what "the code" does, or never does
+        assert re.match(r"[A-Z][a-z-]*s |Never |A colon ", case.what), case
     assert sum(case.says is not None for case in own) >= NAMED
 
 
@@ -129,9 +131,9 @@ def test_mutant_loses_what_it_names(grade, mutant, tmp_path):
     messages = {task.id: task.message for task in result.tasks if task.message}
     assert tuple(task.id for task in lost) == mutant.loses, messages
     assert all(task.message for task in lost)
-    told = {line for text in messages.values() for line in text.splitlines() if TOLD in line}
-    assert told <= {f"{TOLD} {mutant.what}"}, "the sentence of another mistake is said"
-    if mutant.says and not told:
+    lines = {line for text in messages.values() for line in text.splitlines() if TOLD in line}
+    assert lines <= {line_about(mutant.what)}, "the sentence of another mistake is said"
+    if mutant.says and not lines:
         said = f"{result.banner}\n{lost[0].message}"
         assert mutant.says != THIS, said
         assert re.search(mutant.says, said), said

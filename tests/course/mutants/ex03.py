@@ -275,7 +275,7 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 
 # %% plain_argsort loses 3.2
-# The order rises, as np.argsort gives it: the worst comes first.
+# Ranks in rising order, as np.argsort does, so that the worst comes first.
 # says: The worst comes first|The order rises
 def rank(fitness):
     return np.argsort(fitness)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from botschool.grading.declare import diagnosis
-from botschool.grading.declare.values import FEW, apart, arrays_apart, kind, show
+from botschool.grading.declare.values import FEW, apart, arrays_apart, kind, show, start_of
 from botschool.sandbox.exceptions import nearest
 
 
@@ -140,7 +140,8 @@ def expect_close(
     got = expect_array(said, value, wanted.shape)
     close = np.abs(got - wanted) <= _allowed(got, wanted, tolerance)
     if not close.all():
-        sentence = _unequal(said, got, wanted, close)
+        shown = show(got) if isinstance(value, np.ndarray) else start_of(got)
+        sentence = _unequal(said, got, wanted, close, shown)
         if all(isinstance(each, (bool, np.bool_)) for each in (value, expected)):
             sentence = f"{said} {came(said)} {bool(value)}, but {bool(expected)} was expected."
         if cuts_fractions(value, wanted):
@@ -193,14 +194,18 @@ def _allowed(got: np.ndarray, wanted: np.ndarray, tolerance: float) -> np.ndarra
 
 def _but(said: str, value: Any, shape: tuple[int, ...]) -> str:
     """Return the sentence about a value of another kind or shape."""
-    needed = f"an array of shape {shape}" if shape else "a single number"
+    needed, were = f"an array of shape {shape}" if shape else "a single number", "was"
+    if isinstance(value, list) and len(shape) == 1:
+        needed, were = ("1 number", "was") if shape == (1,) else (f"{shape[0]} numbers", "were")
+    elif isinstance(value, list) and shape:
+        needed = f"shape {shape}"
     if value is None:
         end = "" if came(said) == "is" else ": does it end without `return`?"
         return f"{said} {came(said)} None, but {needed} is needed{end}"
     was = kind(value)
     if isinstance(value, list) and (inner := np.shape(np.asarray(value))) and len(inner) > 1:
         was += f" (shape {inner})"
-    return f"{said} {came(said)} {was}, but {needed} was expected."
+    return f"{said} {came(said)} {was}, but {needed} {were} expected."
 
 
 def _not_finite(said: str, array: np.ndarray, bad: np.ndarray) -> str:
@@ -219,7 +224,8 @@ def _not_finite(said: str, array: np.ndarray, bad: np.ndarray) -> str:
     return f"{said} {verb} {what}{place}{many}. It may come from {causes[what]}."
 
 
-def _unequal(said: str, got: np.ndarray, wanted: np.ndarray, close: np.ndarray) -> str:
+def _unequal(said: str, got: np.ndarray, wanted: np.ndarray, close: np.ndarray, shown: str) -> str:
+    """Return the sentence about wrong numbers; shown: words for the submission's, if many."""
     start = f"{said} {came(said)}"
     if got.ndim == 0:
         one, other = apart(float(got), float(wanted))
@@ -232,7 +238,7 @@ def _unequal(said: str, got: np.ndarray, wanted: np.ndarray, close: np.ndarray) 
     one, other = apart(float(got[where]), float(wanted[where]))
     wrong = int((~close).sum())
     return (
-        f"{start} {show(got)}; at [{place}] it is {one}, but {other} was expected "
+        f"{start} {shown}; at [{place}] it is {one}, but {other} was expected "
         f"({'all' if wrong == got.size else wrong} of {got.size} numbers differ)."
     )
 

@@ -46,8 +46,7 @@ def show(value: Any, longest: int = 60) -> str:
     """Return a value in a few words."""
     if isinstance(value, np.ndarray):
         if value.size > FEW:
-            start = numbers(value.ravel()[:4], 5)
-            return f"an array of shape {value.shape} that starts {start}..."
+            return f"an array of shape {value.shape} that starts {numbers(value.ravel()[:4], 5)}..."
         if value.ndim == 0 and value.dtype.kind not in "biuf":
             return show(value.item(), longest)
         return numbers(value, 5) if value.ndim else f"{value.item():.6g}"
@@ -55,6 +54,11 @@ def show(value: Any, longest: int = 60) -> str:
         return f"{value:.6g}"
     text = _Short().repr(value)
     return text if len(text) <= longest else text[: longest - 3] + "..."
+
+
+def start_of(many: np.ndarray) -> str:
+    """Return how the numbers of a list begin, or of a list of lists."""
+    return f"{many.size} numbers that start {numbers(many.ravel()[:4], 5)}..."
 
 
 def numbers(array: np.ndarray, digits: int) -> str:

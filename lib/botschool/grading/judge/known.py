@@ -34,10 +34,10 @@ from botschool.grading.run.student import Student
 from botschool.sandbox import ForkServer
 from botschool.sandbox.protocol import pack, unpack
 
-TOLD = "Your code answers exactly as with this known mistake:"
-VARIED = "Your code answers exactly as ours does with this slip, or with one of the same effect:"
+TOLD = "Your answers are those of a known mistake: the code"
+VARIED = "Your answers are those of our solution with this slip, or with one of the same effect:"
 """Words before the sentence on a known mistake, and before the sentence on a slip."""
-BOTH = "Your code answers exactly as with two known mistakes at once, or with others like them:"
+BOTH = "Your answers are those of two known mistakes at once, or of others like them: the code"
 """Words before the sentences on two known mistakes."""
 SECONDS = 3.0
 """Processor seconds for all slips of a task, and for all pairs; known mistakes have twice that."""
@@ -105,7 +105,7 @@ def known_mistake(
                 if ours.seconds_left < 2 * SECONDS and not likely:
                     break  # so much is for slips and for pairs
                 if _explains(ours, text, calls):
-                    return f"{TOLD} {what}"
+                    return line_about(what)
             slips = _slips(ours, task, known, calls)
             slip = _clearest(each for each in slips if may_be_true(each, submission.text))
             if slip:
@@ -113,6 +113,15 @@ def known_mistake(
             return _pair(ours, [case for case in cases if case.loses[0] == task.id], known, calls)
     except (BotschoolError, Wrong, OSError):  # a fault of the machine, or no time is left
         return ""
+
+
+def line_about(what: str) -> str:
+    """Return the line about a known mistake; what: its sentence, "Takes the sum for the mean."."""
+    return f"{TOLD} {_lower(what)}"
+
+
+def _lower(sentence: str) -> str:
+    return sentence[0].lower() + sentence[1:]
 
 
 def _calls(ours: Student, checks: Iterable[Check]) -> list[Call]:
@@ -274,9 +283,9 @@ def _pair(ours: Student, cases: list[Case], known: Known, calls: list[Call]) -> 
                 alone = [_changed(case, known.solution) for case in both]
                 for case, single in zip(both, alone, strict=True):
                     if _explains(ours, single, calls):
-                        return f"{TOLD} {case.what}"
+                        return line_about(case.what)
                 if not _undone(ours, alone, _telling(calls)):
-                    return f"{BOTH} {both[0].what} {both[1].what}"
+                    return f"{BOTH} {_lower(both[0].what)} And it {_lower(both[1].what)}"
     return ""
 
 

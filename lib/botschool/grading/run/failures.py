@@ -54,7 +54,7 @@ _ADVICE = (
     (
         r"matmul: |shapes .* not aligned|mat1 and mat2 shapes",
         "The last axis of the left array must be as long as the second-to-last axis of the right "
-        "one: transpose one (.T), or exchange the two sides.",
+        "one: print .shape of both.",
     ),
     (
         r"could not be broadcast|could not broadcast|must match the size of tensor",
