@@ -8,6 +8,7 @@ its own: the solution's first stages reach -1273 to -1138, the middle ones -739 
 enough if the last stage of one of two seeds holds the pendulum.
 """
 
+from pathlib import Path
 from weakref import WeakKeyDictionary
 
 import gymnasium
@@ -732,26 +733,33 @@ def newly_drawn(student: Student, fields: list, paths: list, titles) -> np.ndarr
     """As pixels_of, but the student draws the picture now."""
     from matplotlib.image import imread
 
+    file = picture_file(student, fields, paths, titles[: len(fields)])
+    try:
+        pixels = imread(file)
+    except Exception:
+        raise Wrong(f"{student.said} wrote a PNG picture that cannot be read.") from None
+    if pixels.ndim == 2:
+        return np.repeat(pixels[..., None], 3, axis=2)
+    opaque = pixels[..., 3:] if pixels.shape[2] == 4 else 1.0
+    return pixels[..., :3] * opaque + 1.0 - opaque  # upon white
+
+
+def picture_file(student: Student, fields: list, paths: list, titles) -> Path:
+    """The file that the student draws, of a good size."""
     n = len(fields)
+    most = max(LARGEST, 1000 * n)
     said = f"draw_portraits('portraits.png', ...), {n} panel{'s' if n > 1 else ''}"
-    student.run(drawn, "portraits.png", list(titles[:n]), fields, paths, said=said)
+    student.run(drawn, "portraits.png", list(titles), fields, paths, said=said)
     file = student.scratch("portraits.png")
     head = file.read_bytes()[:24]
     width, height = (int.from_bytes(head[at : at + 4], "big") for at in (16, 20))
     expect(head[:8] == b"\x89PNG\r\n\x1a\n", f"{said} wrote a file that is not a PNG picture.")
     expect(
-        300 * n <= width <= LARGEST and 300 <= height <= LARGEST,
+        300 * n <= width <= most and 300 <= height <= most,
         f"{said} wrote a picture of {width} x {height} pixels, but at least {300 * n} x 300 "
-        f"(and at most {LARGEST} x {LARGEST}) are asked for.",
+        f"(and at most {most} x {most}) are asked for.",
     )
-    try:
-        pixels = imread(file)
-    except Exception:
-        raise Wrong(f"{said} wrote a PNG picture that cannot be read.") from None
-    if pixels.ndim == 2:
-        return np.repeat(pixels[..., None], 3, axis=2)
-    opaque = pixels[..., 3:] if pixels.shape[2] == 4 else 1.0
-    return pixels[..., :3] * opaque + 1.0 - opaque  # upon white
+    return file
 
 
 def difference(one: np.ndarray, other: np.ndarray) -> np.ndarray:
@@ -792,6 +800,8 @@ def places(student: Student, drawings: list[tuple[list, list]]) -> list[tuple[fl
 def field_where_it_belongs(student: Student):
     drawings = [([around(*at)], [CENTRE]) for at in STATES]
     expect_fixed_axes(student, places(student, drawings))
+    many = [CENTRE] * 7
+    picture_file(student, many, many, [f"stage {i}" for i in range(7)])
 
 
 @picture.check(3)

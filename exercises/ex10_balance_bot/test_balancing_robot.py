@@ -473,7 +473,7 @@ def observes(student: Student):
     ):
         said = (
             f"observe(), with inclination {inclination:.3f}, angular velocity {turning[0]:.3f} and "
-            f"wheel speed {speed:.2f}"
+            f"self.speed {speed:.2f}"
         )
         mistakes = {}
         for axis, angle, change in zip("yz", others, turning[1:], strict=True):
@@ -864,6 +864,7 @@ def registered(module, urdf, seed, gains=None):
 
     Without a controller: lets Gymnasium check the environment, and begins an episode after it.
     """
+    import functools
     import importlib
     import os
     import warnings
@@ -885,8 +886,9 @@ def registered(module, urdf, seed, gains=None):
     if not callable(made) and ":" not in str(made):
         return f"entry_point is {made!r:.60}, but should be the class itself."
     if isinstance(made, str):
+        place, _, inside = made.partition(":")
         try:
-            importlib.import_module(made.partition(":")[0])
+            functools.reduce(getattr, inside.split("."), importlib.import_module(place))
         except Exception:
             return f"entry_point is {made!r:.60}, which cannot be imported here: take the class."
     most = gymnasium.registry[name].max_episode_steps

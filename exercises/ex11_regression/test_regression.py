@@ -648,7 +648,8 @@ def expect_learnt(
 ) -> tuple[str, object]:
     """(said, how the network was trained) of a network whose outputs are near their targets."""
     seed = exercise.seed(index) % 100_000
-    said = f"learn(inputs {corners.shape}, targets {show(targets.ravel())}, {hiddens}, {seed})"
+    told = show(targets.ravel().tolist(), 120)
+    said = f"learn(inputs {corners.shape}, targets {told}, {hiddens}, {seed})"
     arguments = [corners, targets, hiddens, seed]
     answer = student.run(watched, "learn", arguments, stuck, said=said)
     expect(isinstance(answer, list) and len(answer) == 3, f"{said} should return a Network.")
@@ -675,8 +676,8 @@ def expect_learnt(
         because += "each output from its target."
     expect(
         wrong <= 0.05,
-        f"{said}: the outputs are {show(outputs.ravel())}, the farthest of them {wrong:.3f} away "
-        f"from its target, but at most 0.05 is allowed.{because}",
+        f"{said}: the outputs are {show(outputs.ravel().round(3).tolist(), 120)}, the farthest of "
+        f"them {wrong:.3f} away from its target, but at most 0.05 is allowed.{because}",
     )
     expect(
         not np.any(repeated),

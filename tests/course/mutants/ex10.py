@@ -1464,3 +1464,10 @@ def describe(urdf):
 # +         above = root.find(f"link[@name='{parent}']/inertial/origin")
 # +         inside = numbers_of(above, "xyz", [0.0, 0.0, 0.0])
 # +         frames[child] = frames[parent] + inside + origin
+# %% entry_point_in_main loses 10.7
+# Registers the class as "__main__:BalanceBotEnv", but it is there only while this file runs as a script.
+# says: cannot be imported here
+# -         id="BalanceBotBulletEnv-v0", entry_point=BalanceBotEnv, max_episode_steps=500
+# +         id="BalanceBotBulletEnv-v0",
+# +         entry_point="__main__:BalanceBotEnv",
+# +         max_episode_steps=500,

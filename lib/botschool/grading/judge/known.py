@@ -17,7 +17,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import closing
 from dataclasses import dataclass
-from itertools import combinations, count, islice
+from itertools import count, islice
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -37,11 +37,9 @@ from botschool.sandbox.protocol import pack, unpack
 TOLD = "Your answers are those of a known mistake: the code"
 VARIED = "Your answers are those of our solution with this slip, or with one of the same effect:"
 """Words before the sentence on a known mistake, and before the sentence on a slip."""
-BOTH = "Your answers are those of two known mistakes at once, or of others like them: the code"
-"""Words before the sentences on two known mistakes."""
 SECONDS = 3.0
-"""Processor seconds for all slips of a task, and for all pairs; known mistakes have twice that."""
-TOTAL = 4 * SECONDS
+"""Processor seconds for all slips of a task; known mistakes have twice that."""
+TOTAL = 3 * SECONDS
 """Processor seconds of our child."""
 SLIP_SECONDS = 0.1
 """Processor seconds for one answer with a slip in our solution, which may loop without end."""
@@ -102,15 +100,13 @@ def known_mistake(
                 return ""
             calls += [Call(pack(request), None, got=got, slow=True) for request, got in others]
             for what, text, likely in _likely_first(ours, cases, known.solution, calls):
-                if ours.seconds_left < 2 * SECONDS and not likely:
-                    break  # so much is for slips and for pairs
+                if ours.seconds_left < SECONDS and not likely:
+                    break  # so much is for slips
                 if _explains(ours, text, calls):
                     return line_about(what)
             slips = _slips(ours, task, known, calls)
             slip = _clearest(each for each in slips if may_be_true(each, submission.text))
-            if slip:
-                return f"{VARIED} {slip.what}"
-            return _pair(ours, [case for case in cases if case.loses[0] == task.id], known, calls)
+            return f"{VARIED} {slip.what}" if slip else ""
     except (BotschoolError, Wrong, OSError):  # a fault of the machine, or no time is left
         return ""
 
@@ -260,44 +256,6 @@ def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterat
         for slip, fitting in zip(batch, near, strict=True):
             if fitting and _explains(ours, slip.text, calls):
                 yield slip
-
-
-def _pair(ours: Student, cases: list[Case], known: Known, calls: list[Call]) -> str:
-    """Return a line on the first two known mistakes that explain the answers together, or "".
-
-    If one of them does so alone, and had no time before, the line tells only that one.
-    """
-    if _few(_wrong(calls)):
-        return ""
-    changed = [(case, text) for case in cases if (text := _changed(case, known.solution))]
-    pairs = (
-        (one[0], two[0], text)
-        for one, two in combinations(changed, 2)
-        if (text := _changed(two[0], one[1])) and _imports_little(text, known.solution)
-    )
-    for batch in _batches(ours, pairs):
-        texts = [text for *_, text in batch]
-        near = _near(ours, texts, _telling(calls), SLIP_SECONDS, "two known mistakes")
-        for (*both, text), fitting in zip(batch, near, strict=True):
-            if fitting and _explains(ours, text, calls):
-                alone = [_changed(case, known.solution) for case in both]
-                for case, single in zip(both, alone, strict=True):
-                    if _explains(ours, single, calls):
-                        return line_about(case.what)
-                if not _undone(ours, alone, _telling(calls)):
-                    return f"{BOTH} {_lower(both[0].what)} And it {_lower(both[1].what)}"
-    return ""
-
-
-def _undone(ours: Student, texts: list[str], call: Call) -> bool:
-    """Return whether a mistake alone changes the form of an answer, and the submission does not.
-
-    Then the other mistake puts this one right, and its sentence would be false.
-    """
-    if math.isinf(distance(call.got, call.ours)):
-        return False
-    made = ours.run(tried, texts, unpack(call.request), SLIP_SECONDS, said="known mistakes")
-    return any(answers and math.isinf(distance(answers[0], call.ours)) for answers in made)
 
 
 def _wrong(calls: list[Call]) -> list[Call]:

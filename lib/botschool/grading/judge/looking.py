@@ -285,9 +285,9 @@ def looked_at_again(failure: Failure, student: Student, ours: Callable[[], Stude
     text = ""
     if not same(first, second) and _steady(failure.request, ours):
         text += (
-            "\n  Two calls with the same arguments give different answers. Either random numbers "
-            "come from somewhere else than an argument (as those of np.random.normal do), or "
-            "something that stays from call to call (a variable, an object, a file) changes them."
+            "\n  Asked the same again, the code gives another answer: chance decides about it, or "
+            "something that stays from call to call (a variable, an object, a file), but only what "
+            "the task names should."
         )
     if "driver" not in failure.request and isinstance(found["arguments"], list):
         for number, (before, after) in enumerate(

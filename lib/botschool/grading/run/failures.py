@@ -60,6 +60,10 @@ _ADVICE = (
         r"could not be broadcast|could not broadcast|must match the size of tensor",
         "Arrays of these shapes cannot be combined number by number: print .shape of both.",
     ),
+    (
+        r"No such file or directory(?s:.*)mkdir\(",
+        "mkdir makes only the last folder of a path; with parents=True those above it, too.",
+    ),
     (r"'NoneType'", "Something is None here: print each part of the line."),
     (
         r"values to unpack(?s:.*)\.(reset|step)\(",
