@@ -4,16 +4,17 @@ tests/course/mutants/exNN.py holds an exercise's wrong solutions, tests/course/a
 right ones in other styles. A case is a section of the file:
 
     # %% noise_of_the_first_only loses 16.2, 16.3
-    # Only the first sensor has noise.
+    # Adds noise to the first sensor only.
     # says: this
     # -     noise = rng.normal(0, 0.1, len(sensors))
     # +     noise = rng.normal(0, 0.1)
 
 The first line gives the name and the tasks that lose points; an alternative loses none. The second
-line says what is wrong, as a sentence for the learner: a grader prints it if a submission answers
-exactly as this case does (grading/judge/known.py). Lines with `-` are lines of the solution, which
-must hold them exactly once and without a gap; the lines with `+` replace them; the next `-` begins
-another change. Code that follows is put after the solution's functions and redefines them.
+line says what the code does wrong, as a sentence for the learner that begins with a verb: a grader
+prints it if a submission answers exactly as this case does (grading/judge/known.py). Lines with `-`
+are lines of the solution, which must hold them exactly once and without a gap; the lines with `+`
+replace them; the next `-` begins another change. Code that follows is put after the solution's
+functions and redefines them.
 
 `says` is optional: what the message of the first of these tasks must say. `this` stands for the
 second line; anything else is a regular expression for the words of a check, or for the second line
