@@ -341,8 +341,8 @@ def arrays_stay_as_they_are(student: Student):
     changed = student.run(changed_by, network, observation, said="forward(network, observation)")
     expect(
         changed == [],
-        f"{student.said} changed {' and '.join(map(str, changed))} of what it was given, in values "
-        "or in shape, but the arrays given should stay as they are.",
+        f"{student.said} changed {' and '.join(map(str, changed))} of what it was given, but this "
+        "should stay as it is. (`+=`, for example, changes an array in place.)",
     )
 
 
@@ -878,8 +878,8 @@ def few_and_square(student: Student):
     changed = student.run(changed_by_batch, networks, rng.normal(size=(3, 4)), said=said)
     expect(
         changed == [],
-        f"{said} changed {show(changed)} of what it was given, in values or in shape, but the "
-        "arrays given should stay as they are.",
+        f"{said} changed {' and '.join(map(str, changed))} of what it was given, but this should "
+        "stay as it is. (`+=`, for example, changes an array in place.)",
     )
     kept = student.run(kept_after_another_batch, networks, rng.normal(size=(3, 4)), said=said)
     expect(kept is True, f"{said} changes what an earlier call returned: make a new array.")

@@ -56,7 +56,7 @@ def random_episode(environment_id, seed, maxsteps):
 
 
 # %% maxsteps_is_truncation loses 1.2
-# Sets truncated to True when only maxsteps has stopped the episode, but both ends should be False then.
+# Sets truncated to True when only maxsteps has stopped the episode, but terminated and truncated should both be False then.
 _random_episode = random_episode
 
 

@@ -267,7 +267,7 @@ def train(environment, seed):
 
 
 # %% neighbours_share_individuals loses 3.1
-# Draws individual i with the seed seed + i, so neighbouring seeds share individuals, but two seeds should have none in common.
+# Draws individual i from seed + i, so neighbouring seeds share individuals, but two seeds should have none in common.
 # says: individual of the population of seed
 def initial_population(popsize, nbiases, nweights, seed):
     rows = [np.random.default_rng(seed + i).standard_normal(nweights) for i in range(popsize)]

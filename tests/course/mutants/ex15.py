@@ -1110,7 +1110,7 @@ def progress(matrix):
 
 
 # %% draws_for_a_cycle loses 15.5
-# Counts a group as a cycle also if a does not beat b, b does not beat c and c does not beat a, but in a draw nobody wins.
+# Treats a draw as a lost match in the search for cycles, but in a draw nobody wins or loses.
 # says: this
 from itertools import combinations
 

@@ -57,8 +57,9 @@ def show(value: Any, longest: int = 60) -> str:
 
 
 def start_of(many: np.ndarray) -> str:
-    """Return how the numbers of a list begin, or of a list of lists."""
-    return f"{many.size} numbers that start {numbers(many.ravel()[:4], 5)}..."
+    """Return how a list of many numbers begins, or a list of lists; many: as an array."""
+    what = f"{many.size} numbers" if many.ndim == 1 else f"shape {many.shape}"
+    return f"a list of {what} that starts {numbers(many.ravel()[:4], 5)}..."
 
 
 def numbers(array: np.ndarray, digits: int) -> str:
