@@ -361,7 +361,7 @@ def test_a_later_failure_shows_that_an_answer_is_random(messages, monkeypatch):
         "import os\ndef spread(x): return 9.5 + (len(x) > 2) * float.fromhex(os.urandom(4).hex())\n"
     )
     (told,) = messages(random, exercise)
-    assert "Asked the same again, the code gives another answer" in told
+    assert "Called again in the same way, the code gives another answer" in told
 
 
 numbers = st.one_of(st.booleans(), st.integers(), st.floats(), st.text(max_size=3), st.none())

@@ -754,10 +754,11 @@ def picture_file(student: Student, fields: list, paths: list, titles) -> Path:
     head = file.read_bytes()[:24]
     width, height = (int.from_bytes(head[at : at + 4], "big") for at in (16, 20))
     expect(head[:8] == b"\x89PNG\r\n\x1a\n", f"{said} wrote a file that is not a PNG picture.")
+    size = f"{said} wrote a picture of {width} x {height} pixels"
+    expect(max(width, height) <= most, f"{size}, which is too large to judge.")
     expect(
-        300 * n <= width <= most and 300 <= height <= most,
-        f"{said} wrote a picture of {width} x {height} pixels, but at least {300 * n} x 300 "
-        f"(and at most {most} x {most}) are asked for.",
+        width >= 300 * n and height >= 300,
+        f"{size}, but at least {300 * n} x 300 are asked for: 300 for the width of each panel.",
     )
     return file
 

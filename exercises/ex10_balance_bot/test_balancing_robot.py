@@ -980,7 +980,7 @@ def ends_when_it_falls(student: Student):
 @registering.check(4)
 def passes_gymnasiums_checker(student: Student):
     seed = exercise.seed(53)
-    said = f"Gymnasium's check_env, and then reset(seed={seed})"
+    said = f"Gymnasium's check_env, or reset(seed={seed}) after it,"
     begins = student.run(registered, robot_text(), seed, said=said)
     expect(not isinstance(begins, str), f"gymnasium.make: {begins}")
     with World(seeding.np_random(seed)[0].uniform(-0.3, 0.3)) as world:

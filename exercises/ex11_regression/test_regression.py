@@ -667,7 +667,7 @@ def expect_learnt(
     wrong = np.abs(outputs - targets).max()
     because = ""
     if stuck and np.allclose(parameters[0], parameters[0][0], atol=1e-3):  # all neurons are alike
-        because = " The first networks that it made were stuck, and should have been replaced."
+        because = " The grader made the first networks stuck: such a network should be replaced."
     elif stuck:
         because = " The grader made the first networks stuck, but the neurons of this one differ."
     error = ((outputs - targets) ** 2).mean()

@@ -73,7 +73,7 @@ def descent(gradient, centre, wdecay):
 
 
 # %% decay_pushes_away loses 8.4
-# Subtracts the pull instead of adding it, so that descending would make parameters larger instead of smaller.
+# Subtracts the pull instead of adding it, so that the decay would push parameters away from 0 instead of towards it.
 # says: The decay has the wrong sign
 # -     return -gradient + 0.005 * pull
 # +     return -gradient - 0.005 * pull

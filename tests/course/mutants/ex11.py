@@ -149,7 +149,7 @@ def learn(inputs, targets, hiddens, seed):
 
 # %% never_begins_anew loses 11.5
 # Trains one network and returns it even if it is stuck, but a stuck one should be replaced by a new one.
-# says: made were stuck, and should have been replaced
+# says: such a network should be replaced
 def learn(inputs, targets, hiddens, seed):
     torch.manual_seed(seed)
     network = Network(inputs.shape[1], hiddens, targets.shape[1])

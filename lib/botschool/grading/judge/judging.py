@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 import traceback
 import warnings
@@ -36,6 +37,8 @@ MOST_SECONDS = 2.0
 """As MAX_SECONDS, of a check that has failed: a known mistake must explain its answers, too."""
 LOOKING_SECONDS = 6.0
 """Processor seconds for a second look."""
+_SAME = re.compile(r" raised | changed its argument ")
+"""What follows is alike in the sentences of several checks on one exception, or on one change."""
 
 
 @dataclass
@@ -129,10 +132,10 @@ def _grade_task(
     finally:
         if student is not None:
             student.close()
-    # report the same exception at the same line once, though several checks meet it
+    # report the same exception or change once, though several checks meet it
     said: dict[str, str] = {}
     for each in problems:
-        said.setdefault(each.partition(" raised ")[2] or each, each)
+        said.setdefault(_SAME.split(each, maxsplit=1)[-1], each)
     if told:
         said = {"": told, **said}
     result.message = plain("\n".join(said.values()))

@@ -285,9 +285,8 @@ def looked_at_again(failure: Failure, student: Student, ours: Callable[[], Stude
     text = ""
     if not same(first, second) and _steady(failure.request, ours):
         text += (
-            "\n  Asked the same again, the code gives another answer: chance decides about it, or "
-            "something that stays from call to call (a variable, an object, a file), but only what "
-            "the task names should."
+            "\n  Called again in the same way, the code gives another answer: by chance, or "
+            "because something stays from call to call (a variable, an object, a file)."
         )
     if "driver" not in failure.request and isinstance(found["arguments"], list):
         for number, (before, after) in enumerate(
