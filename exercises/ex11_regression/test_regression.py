@@ -838,8 +838,8 @@ def column_that_never_changes(student: Student):
     deviation[0] = 1.0
     compare_normalised(student, inputs, deviation)
     # a column of a small unit does change
-    for factor in (1e-7, 1e-3):
-        inputs[:, 1] *= factor
+    for unit in (5e-7, 3e-9):
+        inputs[:, 1] *= unit / inputs[:, 1].std()
         deviation[1] = inputs[:, 1].std()
         compare_normalised(student, inputs, deviation)
     # and so does one of large numbers, of which single precision gives the deviation roughly
