@@ -91,7 +91,7 @@ def random_episode(environment_id, seed, maxsteps):
 
 # %% unseeded_actions loses 1.2
 # Does not seed the action space, so that each call draws other actions, but the seed should decide them.
-# says: do not come from the seed
+# says: another answer: by chance
 def random_episode(environment_id, seed, maxsteps):
     env = gymnasium.make(environment_id)
     observation, _ = env.reset(seed=seed)

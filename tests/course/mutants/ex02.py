@@ -59,7 +59,7 @@ def forward(network, observation):
 
 # %% multiplies_from_the_wrong_side loses 2.2
 # Multiplies the vector and the matrix in the wrong order, as in observation @ W1, but W1 @ observation is asked for.
-# says: transpose one|exchange the two sides
+# says: print .shape of both
 def forward(network, observation):
     hidden = np.tanh(observation @ network["W1"] + network["b1"])
     return np.tanh(hidden @ network["W2"] + network["b2"])
@@ -147,7 +147,7 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 
 # %% reset_without_seed loses 2.5
 # Resets the environment without the seed, but env.reset(seed=seed) is asked for.
-# says: do not come from the seed
+# says: another answer: by chance
 # -     observation, _ = env.reset(seed=seed)
 # +     observation, _ = env.reset()
 # -         total += float(reward)
@@ -485,7 +485,7 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 # %% draws_among_equals loses 2.4
 # Draws one of several equal outputs at random, but the lowest number is asked for.
-# says: Two calls with the same
+# says: another answer: by chance
 # -         return int(action_space.start + np.argmax(outputs))
 # +         equal = np.flatnonzero(outputs == np.max(outputs))
 # +         return int(action_space.start + np.random.default_rng().choice(equal))

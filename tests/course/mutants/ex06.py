@@ -962,7 +962,7 @@ def reactions(brain, observation, memories):
 
 # %% one_memory_for_all_episodes loses 6.2
 # Begins with the memory that the episode before has left, not with 0, and gives the last memory in every row of memories (copy it).
-# says: something that stays from call to call
+# says: something stays from call to call
 # -     memory = np.zeros((2, UNITS))
 # +     memory = SHARED
 # -         memory = remember(len(steps) - 1, memory, after)

@@ -28,7 +28,7 @@ def record(controller, seed, steps):
 
 # %% recording_unseeded loses 7.2
 # Starts from a state that does not come from the seed, but env.reset(seed=seed) should choose it.
-# says: do not come from the seed
+# says: another answer: by chance
 _record = record
 
 

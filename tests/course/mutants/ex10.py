@@ -88,7 +88,7 @@ class BalanceBotEnv(BalanceBotEnv):
 
 # %% unseeded_start loses 10.4, 10.7
 # Draws the inclination from random numbers that do not depend on the seed, but self.np_random is asked for.
-# says: do not come from the seed
+# says: another answer: by chance
 class BalanceBotEnv(BalanceBotEnv):
     def reset(self, *, seed=None, options=None):
         return super().reset(seed=int(np.random.randint(2**31)))
@@ -556,7 +556,7 @@ def train(seed):
 
 # %% limit_of_25 loses 10.2
 # Limits the speed of the wheels to 25 in observation_space, but FASTEST is asked for.
-# says: is \[-3.14159, -inf, -25. \], but should be \[-3.14159, -inf, -24.6
+# says: is \[-3.14159, -inf, -25\.?\], but should be \[-3.14159, -inf, -24.6
 # -         limits = np.array([np.pi, np.inf, FASTEST], dtype=np.float32)
 # +         limits = np.array([np.pi, np.inf, 25.0], dtype=np.float32)
 
