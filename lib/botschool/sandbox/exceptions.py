@@ -19,6 +19,9 @@ MAX_NAMES, MAX_NAME = 5000, 60
 """Number of names to compare; characters of each name."""
 ALIKE = 0.7
 """Smallest similarity of two names, as difflib's ratio."""
+_STARTERS = ("/multiprocessing/", "/subprocess.py", "/concurrent/futures/process.py")
+"""Modules that start processes."""
+_FORKS = {"fork", "forkpty", "posix_spawn", "posix_spawnp", "execv", "execve", "execvp"}
 _WRONG_CALL = re.compile(r"(?:\w+\.)*(\w+)\(\) (?:missing|takes|got an unexpected|got multiple)")
 
 
@@ -36,6 +39,7 @@ def explain(error: BaseException, file: Path, module: Any = None) -> dict[str, A
     error, text: its type and message. file, line: the innermost place in the untrusted files (the
     file's name in its folder), or None. column: of a syntax error. near: an existing name that
     resembles the unknown one. call: the function's signature, if the grader's call does not fit it.
+    process: whether the confinement has refused to start a process.
     A missing function is an error "Missing", and a call that does not fit a "Signature".
     """
     folder = file.parent
@@ -48,7 +52,8 @@ def explain(error: BaseException, file: Path, module: Any = None) -> dict[str, A
     ]
     name, line = places[-1] if places else (None, None)
     told = {"error": type(error).__name__, "text": str(error)[:MAX_TEXT], "file": name,
-            "line": line, "column": None, "near": None, "call": None}  # fmt: skip
+            "line": line, "column": None, "near": None, "call": None,
+            "process": _started_process(error)}  # fmt: skip
     if isinstance(error, SyntaxError) and (own := _inside(str(error.filename), folder)):
         text = str(error.msg)[:MAX_TEXT]
         return told | {"text": text, "file": own, "line": error.lineno, "column": error.offset}
@@ -61,6 +66,18 @@ def explain(error: BaseException, file: Path, module: Any = None) -> dict[str, A
             call = f"{found[1]}{inspect.signature(function)}"[:MAX_TEXT]
             return told | {"error": "Signature", "call": call}
     return told | {"near": _near(error, frames[-1] if frames else None)}
+
+
+def _started_process(error: BaseException | None) -> bool:
+    """Return whether an exception, or one behind it, says that no process may be started."""
+    for _ in range(10):
+        if isinstance(error, PermissionError):
+            codes = [frame.f_code for frame, _ in traceback.walk_tb(error.__traceback__)]
+            if any(part in code.co_filename for code in codes for part in _STARTERS):
+                return True
+            return bool(codes) and not _FORKS.isdisjoint(codes[-1].co_names)
+        error = error and (error.__cause__ or error.__context__)
+    return False
 
 
 def _inside(filename: str, folder: Path) -> str | None:

@@ -43,7 +43,7 @@ def code_lines(text: str) -> set[str]:
 
 def names_in(text: str) -> set[str]:
     """Return the functions and classes that a program defines."""
-    return set(_NAMES.findall(text))
+    return set(_NAMES.findall(text.replace("\r", "\n")))
 
 
 class Sought:

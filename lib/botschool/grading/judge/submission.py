@@ -6,6 +6,7 @@ import re
 import shutil
 import tempfile
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -14,10 +15,10 @@ from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import Exercise, Task, cannot_be_graded
 from botschool.grading.declare.references import functions_of, pruned
 from botschool.grading.judge.judging import TaskResult, grade_task, tried_twice
-from botschool.grading.run.cells import Script, Unreadable, scripts
+from botschool.grading.run.cells import Script, Unreadable, gives_builtins, scripts
 from botschool.grading.run.confined import content_digest, fork_server, submission_files
 from botschool.grading.run.failures import Origin
-from botschool.grading.run.notebooks import code_cells
+from botschool.grading.run.notebooks import code_cells, other_cells
 from botschool.grading.run.student import Student
 from botschool.sandbox import ForkServer
 from botschool.sandbox.inside import read_inside
@@ -27,7 +28,7 @@ LOADING_SECONDS = 10
 """Processor seconds of all code in a file or a notebook outside functions."""
 _CELL = re.compile(r"^(?=# %%)", re.MULTILINE)
 _DEFINITION = re.compile(r"^(async def|def|class)\b", re.MULTILINE)
-_NAME = re.compile(r"^\s*(?:async\s+def|def|class)\s+(\w+)", re.MULTILINE)
+_NAME = re.compile(r"^[ \t]*(?:async[ \t]+def|def|class)[ \t]+(\w+)", re.MULTILINE)
 _WORDS = ("task", "does", "solution", "its"), ("tasks", "do", "solutions", "their")
 _NOT_GRADED = "Not graded: mend the file first, as said above."
 
@@ -215,19 +216,25 @@ class Submission:
         return files.hexdigest()
 
     def _prepare(self) -> None:
-        if self._sources is not None:
-            everything, defined = scripts(self._sources)
-            self._write(everything)
+        defined = None
+        if self._sources is not None or self._gives_builtins():
+            everything, defined = scripts(self._cells() if self._sources is None else self._sources)
+            if self._sources is not None or everything.undone:
+                self._write(everything)
+                self.banner = "\n".join(map(self._undone, everything.undone))
+        if self._given.suffix == ".ipynb":
+            self._find_other_cells()
         file = self._file if self._script else self._given
         place = self._place if self._script else None
         trouble = tried_twice(partial(_trouble, file, self._server, Origin(place)), self._alone)
         if trouble is None:
             return
-        self.banner = getattr(trouble, "banner", str(trouble))
+        banner = getattr(trouble, "banner", str(trouble))
         if self._sources is not None:
-            self.banner = self.banner.replace("Your file", "The notebook", 1)
-        if self._sources is None:
-            everything, defined = scripts(self._cells())
+            banner = banner.replace("Your file", "The notebook", 1)
+        self.banner = "\n".join(filter(None, [banner, self.banner]))
+        if defined is None:
+            _, defined = scripts(self._cells())
         if not _DEFINITION.search(defined.text):
             raise Wrong(_NOT_GRADED)
         self._write(defined)
@@ -240,11 +247,33 @@ class Submission:
             names = _NAME.findall(parts[number - 1])
             lost = f" ({', '.join(names)})" if names else ""
             self.banner += f"\n{part[:1].upper()}{part[1:]} is not Python: left out{lost}."
-            self._lost |= dict.fromkeys(names, part)
+            self._lost |= dict.fromkeys(names, f"{part} is not Python (see above)")
+
+    def _find_other_cells(self) -> None:
+        """Keep the names of functions that stand in cells without code."""
+        for kind, text in other_cells(self._given):
+            where = f"it stands in a {kind} cell: make it a code cell again (in Jupyter: Esc, Y)"
+            self._lost |= dict.fromkeys(_NAME.findall(text), where)
+
+    def _undone(self, place: list) -> str:
+        """Return some lines on a name of Python that has been given another value."""
+        number, line, name = place
+        where = f"line {line} of {self._cell(number)}"
+        if self._sources is None:
+            where = f"{self._given.name}:{self._starts[number - 1] + line}"
+        return (
+            f"You give Python's name {name} another value, but your functions need Python's own.\n"
+            f"  {where}: choose another name. Here, this line is left out."
+        )
+
+    def _gives_builtins(self) -> bool:
+        with suppress(OSError):
+            return gives_builtins(self._text())
+        return False
 
     def _text(self) -> str:
         content = read_inside(self._given.parent, self._given.name, MAX_COPIED)
-        return content.decode("utf-8", "replace").replace("\r\n", "\n")
+        return content.decode("utf-8", "replace").replace("\r\n", "\n").replace("\r", "\n")
 
     def _cells(self) -> list[str]:
         """Return a script's cells; store the line before each."""

@@ -8,6 +8,7 @@ parser.
 from __future__ import annotations
 
 import ast
+import builtins
 import json
 import re
 import subprocess
@@ -26,6 +27,21 @@ _TEST = re.compile(
 )
 _MAGIC = re.compile(r"\s*[%!?]|.*\?\s*$|[\s\w,]+=\s*[%!]")
 _PYTHON_CELL = re.compile(r"%%(time|timeit|capture|prun)\b")
+_BUILTINS = {name for name in dir(builtins) if not name.startswith("_")}
+_GIVES_BUILTIN = re.compile(rf"^\s*(for\s+)?({'|'.join(sorted(_BUILTINS))})\b", re.MULTILINE)
+_IMPORT = """
+try:
+    {text}
+except (Exception, SystemExit) as _error:
+    class LeftOut:
+        def __getattr__(self, name, error=_error.with_traceback(None)):
+            raise AttributeError(name) if name.startswith("__") else error
+        def __call__(self, *_, error=_error, **__):
+            raise error
+    {names} = LeftOut()
+    del LeftOut
+"""
+"""An import whose names raise its error where they are used, if it fails."""
 
 
 class Unreadable(Exception):
@@ -41,6 +57,9 @@ class Script:
     """For each line: the number of its code cell, and the line within the cell; both from 1."""
     left_out: list[int] = field(default_factory=list)
     """Numbers of the code cells that are not Python."""
+    undone: list[list] = field(default_factory=list)
+    """Number of the cell, line in the cell, and name: each assignment to a name of Python that is
+    left out, since functions use the name as Python's."""
 
     def add(self, number: int, text: str) -> None:
         lines = [*text.split("\n"), ""]
@@ -69,11 +88,19 @@ def scripts(sources: list[str]) -> tuple[Script, Script]:
     return Script(**made["whole"]), Script(**made["definitions"])
 
 
+def gives_builtins(text: str) -> bool:
+    """Return whether a text may give a name of Python, such as `list`, another value."""
+    return bool(_GIVES_BUILTIN.search(text))
+
+
 def whole(sources: list[str]) -> Script:
-    """Return all code of the cells, in order."""
-    script = Script()
+    """Return all code of the cells, in order, but for values given to names of Python."""
+    script, cells = _read(sources)
     for number, source in enumerate(sources, 1):
-        script.add(number, plain_python(source))
+        text, body = cells.get(number) or (plain_python(source), [])
+        lines = [line for cell, line, _ in script.undone if cell == number]
+        script.add(number, _replaced(text, [(n, "pass") for n in body if n.lineno in lines]))
+    script.left_out.clear()
     return script
 
 
@@ -81,7 +108,22 @@ def definitions(sources: list[str]) -> Script:
     """Return the imports, functions and classes of the cells, and the globals that these use.
 
     Code that only runs (calls, loops, pictures) is left out, and so are cells that are not Python.
+    An import that fails costs only what uses its names.
     """
+    script, cells = _read(sources)
+    kept = _kept([node for _, body in cells.values() for node in body])
+    for number, (text, body) in cells.items():
+        undone = [line for cell, line, _ in script.undone if cell == number]
+        changes = [
+            (node, _guarded(node) if id(node) in kept and node.lineno not in undone else "pass")
+            for node in body
+        ]
+        script.add(number, _replaced(text, [each for each in changes if each[1]]))
+    return script
+
+
+def _read(sources: list[str]) -> tuple[Script, dict[int, tuple[str, list[ast.stmt]]]]:
+    """Return a Script without text, and (text, statements) of each cell that is Python."""
     script = Script()
     cells: dict[int, tuple[str, list[ast.stmt]]] = {}
     for number, source in enumerate(sources, 1):
@@ -91,10 +133,56 @@ def definitions(sources: list[str]) -> Script:
             script.left_out.append(number)
         else:
             cells[number] = text, tree.body
-    kept = _kept([node for _, body in cells.values() for node in body])
-    for number, (text, body) in cells.items():
-        script.add(number, _without(text, [node for node in body if id(node) not in kept]))
-    return script
+    needed = _called([node for _, body in cells.values() for node in body]) & _BUILTINS
+    script.undone = [
+        [number, node.lineno, sorted(names)[0]]
+        for number, (_, body) in cells.items()
+        for node in body
+        if (names := _given(node)) and names <= needed
+    ]
+    return script, cells
+
+
+def _given(node: ast.stmt) -> set[str]:
+    """Return the names that a statement gives a value, if it is no function or class."""
+    if isinstance(node, ast.For):
+        return _names(node)[0]
+    if not isinstance(node, (ast.Assign, ast.AnnAssign)) or isinstance(
+        node.value, (ast.Lambda, ast.Name, ast.Attribute)
+    ):
+        return set()
+    targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+    return {target.id if isinstance(target, ast.Name) else "" for target in targets}
+
+
+def _called(body: list[ast.stmt]) -> set[str]:
+    """Return the names that functions and classes call or use as types."""
+    found = set()
+    for top in body:
+        if not isinstance(top, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
+            continue
+        for node in ast.walk(top):
+            uses: list[ast.AST | None] = []
+            if isinstance(node, ast.Call):
+                checks = isinstance(node.func, ast.Name) and node.func.id == "isinstance"
+                uses = [node.func, *(node.args if checks else [])]
+            elif isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
+                uses = [*ast.walk(node.returns)] if node.returns else []
+            elif isinstance(node, (ast.arg, ast.AnnAssign)) and node.annotation:
+                uses = [*ast.walk(node.annotation)]
+            found |= {use.id for use in uses if isinstance(use, ast.Name)}
+    return found
+
+
+def _guarded(node: ast.stmt) -> str:
+    """Return an import as one line that never fails; "" for any other statement."""
+    if not isinstance(node, (ast.Import, ast.ImportFrom)):
+        return ""
+    if isinstance(node, ast.ImportFrom) and node.module == "__future__":
+        return ""
+    names = [each.asname or each.name.partition(".")[0] for each in node.names]
+    bound = " = ".join("_" if name == "*" else name for name in names)
+    return f"exec({_IMPORT.format(text=ast.unparse(node), names=bound)!r})"
 
 
 def plain_python(source: str) -> str:
@@ -168,16 +256,16 @@ def _names(node: ast.stmt) -> tuple[set[str], set[str]]:
     return bound, used
 
 
-def _without(text: str, dropped: list[ast.stmt]) -> str:
-    """Return a cell with some top-level statements replaced by `pass`; lines keep their numbers."""
+def _replaced(text: str, changes: list[tuple[ast.stmt, str]]) -> str:
+    """Return a cell with top-level statements replaced by lines; lines keep their numbers."""
     lines = [line.encode() for line in text.split("\n")]
-    for node in reversed(dropped):
+    for node, line in reversed(changes):
         first, last = node.lineno - 1, node.end_lineno - 1
         before, after = lines[first][: node.col_offset], lines[last][node.end_col_offset :]
         if first == last:
-            lines[first] = before + b"pass" + after
+            lines[first] = before + line.encode() + after
         else:
-            lines[first : last + 1] = [before + b"pass", *[b""] * (last - first)]
+            lines[first : last + 1] = [before + line.encode(), *[b""] * (last - first)]
             lines[last] = after.lstrip(b" \t;")
     return b"\n".join(lines).decode()
 

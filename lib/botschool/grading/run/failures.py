@@ -22,6 +22,11 @@ MAX_FILE = 2**20
 """Characters of a file whose lines may be shown."""
 MAX_CALLS = 3
 """Calls to show above the place where the program was."""
+NO_PROCESSES = (
+    "the grader lets your program start no other processes: use num_workers=0, no Pool and no "
+    "AsyncVectorEnv"
+)
+NO_FILMS = 'the grader writes no films: put this below `if __name__ == "__main__":`'
 _NO_NUMBERS = {
     "Tensor": "a tensor: .detach().numpy() or .item() gives its numbers",
     "Parameter": "a tensor: .detach().numpy() or .item() gives its numbers",
@@ -47,7 +52,7 @@ class Origin:
     place: Place | None = None
     """Line of the file -> words for its place; None: use the file's name and the line's number."""
     lost: dict[str, str] = field(default_factory=dict)
-    """Function in a part that is not Python -> words for the part."""
+    """Function in a part that is not read -> why."""
 
 
 _ADVICE = (
@@ -156,6 +161,10 @@ def explained(answer: dict[str, Any], said: str, source: SourceLines) -> Wrong:
         plain(str(answer.get(key) or "")[:500]) for key in ("error", "text", "near", "call")
     )
     text = "" if source.quiet and name not in ("Missing", "NotPlain") else text
+    if answer.get("process") is True:
+        text = NO_PROCESSES
+    elif name == "BotschoolError" and "ffmpeg" in text:
+        text = NO_FILMS
     place = source.shown(answer.get("file"), answer.get("line"))
     if answer.get("loading"):
         return Unloadable(name, text, near, answer, source)
@@ -218,8 +227,8 @@ def _marked(file: str, line: int, column: Any, source: SourceLines) -> str:
 
 def _missing(name: str, near: str, source: SourceLines) -> str:
     text = f"there is no function {name} in your file"
-    if part := source.lost.get(name):
-        return f"{name} cannot be read: {part} is not Python (see above)."
+    if why := source.lost.get(name):
+        return f"{name} cannot be read: {why}."
     if line := source.defined(name):
         where, code = source.at(source._file.name, line)
         inner = code != code.lstrip()

@@ -10,10 +10,22 @@ from botschool.errors import BotschoolError
 
 def code_cells(path: Path) -> list[str]:
     """Return the texts of a notebook's code cells. Raises BotschoolError."""
+    return [text for kind, text in _cells(path) if kind == "code"]
+
+
+def other_cells(path: Path) -> list[tuple[str, str]]:
+    """Return (kind, text) of a notebook's cells that are no code. Raises BotschoolError."""
+    return [
+        ("Markdown" if kind == "markdown" else "raw", text)
+        for kind, text in _cells(path)
+        if kind != "code"
+    ]
+
+
+def _cells(path: Path) -> list[tuple[str, str]]:
     try:
         cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
-        code = [cell["source"] for cell in cells if cell["cell_type"] == "code"]
-        return ["".join(source) for source in code]
+        return [(cell["cell_type"], "".join(cell["source"])) for cell in cells]
     except (OSError, ValueError, LookupError, TypeError, RecursionError):
         raise BotschoolError(
             f"There is no {path.name} in the folder {path.parent}: save the notebook there under "
