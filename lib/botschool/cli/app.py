@@ -81,6 +81,7 @@ def _options(
 def run() -> NoReturn:
     """Run the command and exit; an error that users can mend is one sentence and exit code 2."""
     code, stopped = 130, False
+    _mend_surroundings()
 
     def stop(number: int, frame: object) -> None:
         nonlocal stopped
@@ -98,6 +99,16 @@ def run() -> NoReturn:
     if stopped and code == 130:
         print("Stopped.", file=sys.stderr)
     sys.exit(code)
+
+
+def _mend_surroundings() -> None:
+    """Replace closed streams, and a terminal of no width, by what programs can write to."""
+    for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
+        if getattr(sys, name) is None:  # the next file to be opened would take its number
+            setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), mode))
+    for name in ("COLUMNS", "LINES"):
+        if os.environ.get(name, "").strip("0 ") == "":
+            os.environ.pop(name, None)
 
 
 def _run() -> int:

@@ -16,7 +16,8 @@ from botschool.paths import MATERIAL, material
 def course_command(folder: Path, exercises: str) -> None:
     """Make a copy of the course that the installed botschool grades, or update it."""
     _copy(material(), folder, exercises, compiled=False)
-    print(f"Begin with: cd {quote(str(folder))}; botschool start 1")
+    first = min(selected(exercises, material()))
+    print(f"Begin with: cd {quote(str(folder))}; botschool start {first}")
 
 
 def release_command(folder: Path, exercises: str, answers: bool, wheels: list[Path]) -> None:
@@ -48,3 +49,5 @@ def _copy(
     for path in done.edited:
         print(f"not changed, because it was edited: {path}")
     print(f"{folder}: {done.files} files for students, {done.written} of them new or changed.")
+    if done.unknown:
+        print(f"botschool could not note that you trust this course. {done.unknown}")

@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -61,6 +61,8 @@ class Released:
     """Number of new or changed files."""
     edited: list[str] = field(default_factory=list)
     """Files that were left alone, because somebody has edited them."""
+    unknown: str = ""
+    """Why the user's trust in the copy could not be noted."""
 
 
 def release(
@@ -122,10 +124,13 @@ def release(
             if target.is_dir():
                 target.rmdir()
             made.rename(target)
-            with suppress(BotschoolError):  # the copy still works in other places
+            unknown = ""
+            try:
                 if trusted:
                     trust(target)
-            return Released(len(files), len(files))
+            except BotschoolError as error:  # the copy still works in other places
+                unknown = str(error)
+            return Released(len(files), len(files), unknown=unknown)
         try:
             return _update(made, target, manifest, files)
         except OSError as error:

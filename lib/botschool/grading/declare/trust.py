@@ -29,23 +29,37 @@ def check_trusted(root: Path) -> None:
         return
     if str(root) in _trusted():
         return
+    way = f"run 'botschool trust {quote(str(root))}'"
+    if not _can_be_written():
+        way = f"type 'export {_way_out(root)}' (botschool cannot write {_place()})"
     raise BotschoolError(
         f"botschool does not know the course in {root}, and its graders run with all your "
-        f"rights: if you trust its author, run 'botschool trust {quote(str(root))}'."
+        f"rights: if you trust its author, {way}."
     )
 
 
 def trust(root: Path) -> None:
     """Remember that the user trusts a course. Raises BotschoolError."""
     place = _place()
+    known = sorted({*_trusted(), str(root.resolve())})
     try:
         place.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
+        save_bytes(place, json.dumps(known, indent=1).encode())
+    except (OSError, BotschoolError):
         raise BotschoolError(
-            f"Cannot write {place} ({error.strerror}): change its permissions."
+            f"Cannot write {place}: type 'export {_way_out(root.resolve())}' in each terminal "
+            "before you grade."
         ) from None
-    known = sorted({*_trusted(), str(root.resolve())})
-    save_bytes(place, json.dumps(known, indent=1).encode())
+
+
+def _way_out(root: Path) -> str:
+    return f"BOTSCHOOL_COURSE={quote(str(root))}"
+
+
+def _can_be_written() -> bool:
+    """Return whether the file, or the nearest folder above it that exists, can be written."""
+    place = _place()
+    return os.access(next(each for each in (place, *place.parents) if each.exists()), os.W_OK)
 
 
 def _trusted() -> list[str]:

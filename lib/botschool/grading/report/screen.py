@@ -13,7 +13,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.padding import Padding
 
-from botschool.errors import listed
+from botschool.errors import BotschoolError, listed
 from botschool.grading.declare.exercise import Exercise
 from botschool.grading.judge.submission import Result, TaskResult, grade
 from botschool.grading.run.confined import fork_server
@@ -173,14 +173,23 @@ def watch(
     screen: Screen,
     wait: Callable[[float], None] = time.sleep,
 ) -> None:
-    """Grade now and after every save, for ever; call `wait` between two checks."""
+    """Grade now and after every save, for ever; call `wait` between two checks.
+
+    A file that goes away for a while, as editors and git let it, is waited for.
+    """
+    found = find()
     with fork_server(exercise.imports) as server:
         while True:
-            found = find()
             seen = stamp(found.place)
             try:
+                found = find()
                 _once(exercise, found, tasks, screen, seen, server)
             except Saved:
+                continue
+            except (BotschoolError, OSError):
+                if found.file.exists():
+                    raise
+                wait(POLL_SECONDS)
                 continue
             screen.console.print("[dim]Waiting for the next save; Ctrl-C ends.[/]")
             while stamp(found.place) == seen or not found.place.exists():
