@@ -17,6 +17,7 @@ pytest.importorskip("distributed")
 from botschool import _core, problems
 from botschool.cluster import Open, answers, files, wire, worker
 from botschool.cluster.chunks import Batch
+from botschool.cluster.worker import bits
 from botschool.problems import Episodes
 from clusters import Cluster, registered
 
@@ -252,3 +253,57 @@ def test_no_dashboard_is_named_where_there_is_none(tmp_path, capsys):
         with Open(cluster.address)(lines.append):
             pass
     assert lines == []
+
+
+GAIN = {
+    "a text that names it": ('GAIN = open(HERE / "gain.txt").read()', "gain.txt"),
+    "a name made of parts": ('GAIN = open(HERE / f"gain{1}.txt").read()', "gain1.txt"),
+    "numpy, in a folder": ('GAIN = np.loadtxt(HERE / "data" / ("g" + "0.csv"))', "data/g0.csv"),
+    "bytes, at a reset": ('def at_reset(): (HERE / f"g{2}.bin").read_bytes()', "g2.bin"),
+    "after the probe": ('def late(): (HERE / "late.json").read_text()', "late.json"),
+}
+
+
+@pytest.mark.parametrize("way", GAIN)
+def test_files_that_a_single_module_uses_are_compared(way, tmp_path, monkeypatch):
+    line, name = GAIN[way]
+    parts = "REWARD = 1\nat_reset = lambda: None\n"
+    start = f"{parts}HERE = Path(__file__).parent\n{line}"
+    text = LATE.replace("from late_parts import REWARD", start)
+    text = text.replace("self.n = 0", "self.n = 0; at_reset()").replace("late_env", "single_env")
+    (tmp_path / "single_env.py").write_text("from pathlib import Path\n" + text)
+    for used in (tmp_path / name, tmp_path / "unused.ini", tmp_path / "results" / "S1.fit"):
+        used.parent.mkdir(exist_ok=True)
+        used.write_text("1.0")
+    monkeypatch.syspath_prepend(tmp_path)
+    own = experiment(tmp_path, "single_env:Late-v0", "OpenAI-ES", samplesize=2)
+    try:
+        with files.noticing():
+            problem = problems.of(own)
+            bits(own)
+        here = files.manifest(problem)
+        assert set(here["single_env"]) == {"single_env.py", name}
+        files._digest.cache_clear()
+        (tmp_path / name).write_text("2.0")
+        assert files.differing(here) == [name]
+    finally:
+        sys.modules.pop("single_env", None)
+        files._digest.cache_clear()
+
+
+def test_a_worker_with_another_data_file_takes_no_part(tmp_path):
+    for place, gain in (("mine", 1.0), ("theirs", 5.0)):
+        folder = tmp_path / place
+        folder.mkdir()
+        read = 'REWARD = float((Path(__file__).parent / "gain.txt").read_text())'
+        text = "from pathlib import Path\n" + LATE.replace("from late_parts import REWARD", read)
+        (folder / "late_env.py").write_text(text)
+        (folder / "gain.txt").write_text(str(gain))
+    ini = write_experiment(tmp_path, "late_env:Late-v0", "OpenAI-ES", samplesize=4)
+    with Cluster(tmp_path / "cluster") as cluster:
+        registered(cluster.start_worker(PYTHONPATH=str(tmp_path / "theirs")))
+        arguments = ("-o", tmp_path / "no", "--cluster", cluster.address)
+        env = environment_of_command(DASK_BOTSCHOOL__SHORTEST="0")
+        code, _, errors = call("es", "-f", ini, *arguments, env=env, cwd=tmp_path / "mine")
+    *_, sentence = errors.splitlines(keepends=True)
+    one_sentence(code, sentence, ["gain.txt differs", "install the same files"])

@@ -2,17 +2,24 @@
 
 These are botschool's Python files, the C++ sources of its module (compiled files differ between
 machines that compute the same), and the files of the modules that an experiment names: a whole
-package, or a module and the modules that it imports from its own folder.
+package, or a module and what it uses of its own folder. That is the modules that it imports, files
+that were opened while the environment was made and tried (`noticing`), and files that a text in
+these modules names.
 """
 
 from __future__ import annotations
 
+import ast
+import os
+import re
 import sys
 import sysconfig
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from functools import cache
 from hashlib import blake2b
 from pathlib import Path
+from typing import Any
 
 import botschool
 from botschool import _core
@@ -23,6 +30,12 @@ COMPILED = {".pyc", ".pyo", ".so", ".pyd", ".dll", ".dylib", ".o", ".a", ".lib"}
 """Endings of files that may differ between machines."""
 TOLD = 1_000
 """Largest number of differing files that a worker reports."""
+
+NAME = re.compile(r"[\w .-][\w ./-]{0,200}")
+"""Texts that may be names of files beside a module."""
+
+_opened: set[str] = set()
+_noticing = False
 
 Manifest = dict[str, dict[str, bytes]]
 """Module -> path from the module's folder -> digest of the file."""
@@ -53,6 +66,31 @@ def differing(asked: Manifest) -> list[str]:
     return found[:TOLD]
 
 
+@contextmanager
+def noticing() -> Iterator[None]:
+    """Remember all files that are opened for reading during the block, for `manifest`."""
+    global _noticing
+    _listen()
+    _noticing = True
+    try:
+        yield
+    finally:
+        _noticing = False
+
+
+@cache
+def _listen() -> None:
+    """Begin to notice opened files; Python has no way to end it, so it begins once."""
+
+    def notice(event: str, details: tuple[Any, ...]) -> None:
+        if not _noticing or event != "open" or not isinstance(details[0], (str, bytes)):
+            return
+        if not details[2] & (os.O_WRONLY | os.O_RDWR):
+            _opened.add(os.path.realpath(os.fsdecode(details[0])))
+
+    sys.addaudithook(notice)
+
+
 def _place(module: str) -> Path | None:
     """Return the folder of a package, or the file of a module; None if it has neither."""
     found = sys.modules.get(module)
@@ -67,7 +105,24 @@ def _files(place: Path) -> list[Path]:
         return sorted(p for p in place.rglob("*") if p.is_file() and p.suffix not in COMPILED)
     beside = (getattr(module, "__file__", None) for module in list(sys.modules.values()))
     own = {Path(file) for file in beside if file and not _installed(Path(file))}
-    return sorted({place, *(file for file in own if place.parent in file.parents)})
+    modules = {place, *(file for file in own if place.parent in file.parents)}
+    return sorted(modules | _data(place.parent, modules))
+
+
+def _data(folder: Path, modules: set[Path]) -> set[Path]:
+    """Return the files of a folder that were opened, or that a text of its modules names."""
+    real = folder.resolve()
+    opened = (Path(file) for file in _opened)
+    found = {folder / file.relative_to(real) for file in opened if real in file.parents}
+    for module in modules:
+        tree = ast.parse(module.read_bytes()) if module.suffix == ".py" else ast.Module([], [])
+        texts = (str(node.value) for node in ast.walk(tree) if isinstance(node, ast.Constant))
+        found |= {folder / text for text in texts if NAME.fullmatch(text)}
+    return {
+        file
+        for file in found
+        if file.is_file() and real in file.resolve().parents and not _installed(file)
+    }
 
 
 def _installed(file: Path) -> bool:

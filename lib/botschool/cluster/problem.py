@@ -42,10 +42,11 @@ class Distributed(Problem):
         patience: float,
         say: Callable[[str], None],
     ) -> None:
-        self._inner = inner = problems.of(experiment)
+        with files.noticing():
+            self._inner = inner = problems.of(experiment)
+            same = bits(experiment)
         for name in DECLARED:
             setattr(self, name, getattr(inner, name))
-        same = bits(experiment)
         if not self.native and same != bits(experiment):
             same = None  # it never gives the same result twice: there is nothing to compare
         self._shortest = float(dask.config.get("botschool.shortest", LEAST))
