@@ -1,14 +1,22 @@
 """Genotypes and checkpoints that are damaged, foreign or hostile: refused in one sentence."""
 
 import json
+import os
 import pickle
 import shutil
+import sys
 from zipfile import ZipFile
 
+import gymnasium
 import numpy as np
 import pytest
 
-from running import contents, finished_run, one_sentence, write_experiment
+import botschool.envs  # noqa: F401  (registers them)
+from botschool.analysis.runs import read_fit
+from botschool.arenas import samples
+from botschool.errors import BotschoolError
+from botschool.rl import parameters, weights
+from running import call, contents, finished_run, one_sentence, write_experiment
 
 # genotypes
 
@@ -23,8 +31,8 @@ def test_genotypes_that_do_not_fit(refused, tmp_path):
         "matrix": (saved[None], [f"needs {len(saved)} values"]),
         "empty": (saved[:0], [f"needs {len(saved)} values"]),
         "number": (np.array(3.0), [f"needs {len(saved)} values"]),
-        "text": (saved.astype(str), [f"needs {len(saved)} values"]),
-        "complex": (saved.astype(complex), [f"needs {len(saved)} values"]),
+        "text": (saved.astype(str), ["not a genotype", "plain numbers"]),
+        "complex": (saved.astype(complex), ["not a genotype", "plain numbers"]),
         "nan": (np.where(np.arange(len(saved)) == 2, np.nan, saved), ["finite"]),
         "std": (np.append(saved[:-1], 0.0), ["standard deviations"]),
     }
@@ -241,3 +249,54 @@ def test_checkpoints_of_networks_that_were_computed_otherwise(
     np.savez(path, **whole)
     write_experiment(tmp_path, *problem, policy, maxmsteps=0.02)
     assert command("es", "-f", ini, "-o", results, "--resume")[0] == 0
+
+
+# what is no file, and what is not this kind of file
+
+
+def foreign(folder):
+    """Files of numbers that are no genotype, stat file or population, with a word about each."""
+    folder.mkdir()
+    np.savez(folder / "any.npz", a=np.ones(6), b=np.zeros(2))
+    shutil.copy(folder / "any.npz", folder / "any.npy")
+    (folder / "begins.npy").write_bytes(b"PK\x03\x04" + bytes(60))
+    objects = np.empty(6, dtype=object)
+    objects[:] = range(6)
+    np.save(folder / "objects.npy", objects)
+    np.save(folder / "words.npy", np.array(["a"] * 6))
+    np.save(folder / "fields.npy", np.zeros(6, dtype=[("a", float), ("b", float)]))
+    words = {"objects.npy": "allow_pickle=True", "words.npy": "numbers", "fields.npy": "numbers"}
+    return {path: words.get(path.name, "zip or .npz") for path in sorted(folder.iterdir())}
+
+
+def test_other_files_of_numpy_are_refused_everywhere(refused, tmp_path):
+    ini, _ = finished_run(tmp_path)
+    for path, word in foreign(tmp_path / "foreign").items():
+        refused("page", ini, "-g", path, "-o", tmp_path / "x.html", says=["not a genotype", word])
+        refused("es", "-f", ini, "-p", "-g", path, says=["not a genotype", word])
+        refused("plotstat", path, "-o", tmp_path / "x.png", says=["not a stat file"])
+        with pytest.raises(BotschoolError, match=f"not a genotype.*{word}"):
+            gymnasium.make("botschool/Prey-v0", opponent=str(path))
+        refused("page", "CartPole-v1", "-g", path, "-o", tmp_path / "x.html", says=[path])
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such pipes")
+def test_a_pipe_is_no_file(tmp_path):
+    """Nobody writes into it, so reading would never end."""
+    ini, _ = finished_run(tmp_path)
+    pipe, page = tmp_path / "pipe.ini", ("-o", tmp_path / "x.html")
+    for path in (pipe, tmp_path / "statS1.npy"):
+        os.mkfifo(path)
+    for arguments in (
+        ("es", "-f", pipe),
+        ("page", pipe, *page),
+        ("tournament", "-f", pipe),
+        ("es", "-f", ini, "-p", "-g", pipe),
+        ("page", ini, "-g", pipe, *page),
+        ("plotstat", tmp_path / "statS1.npy"),
+    ):
+        code, _, errors = call(*arguments)
+        one_sentence(code, errors, "it is a pipe or a device, not a file")
+    for read in (samples.load, parameters.read_settings, weights.numbers, read_fit):
+        with pytest.raises((BotschoolError, OSError), match="pipe"):
+            read(pipe)

@@ -9,7 +9,7 @@ PACKAGE = Path(botschool.__file__).parent
 
 LAYERS = (
     {"moved"},
-    {"errors", "__init__"},
+    {"errors", "npy", "sisters", "__init__"},
     {"_core", "paths", "terminal", "inifile", "output", "sandbox"},
     {"examples", "linear", "lock", "seeds", "wrappers"},
     {"policies"},

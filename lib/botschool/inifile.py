@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from botschool.errors import BotschoolError
+from botschool.npy import opened
 
 LONGEST_FILE = 1_000_000
 """Largest number of characters; a longer file is no experiment file."""
@@ -126,7 +127,7 @@ def _twice(key: str, first: Entry) -> str:
 def _read(path: str | PathLike[str]) -> str:
     """Return the file's text. Latin-1 is accepted, too, because comments may use it."""
     try:
-        with open(path, "rb") as file:
+        with opened(path) as file:
             data = file.read(LONGEST_FILE + 1)
     except FileNotFoundError:
         raise refusal(path, 0, f"there is no such file: {_instead(Path(path))}") from None

@@ -16,6 +16,7 @@ import numpy as np
 
 from botschool.errors import BotschoolError
 from botschool.evolution.evaluate import mean
+from botschool.npy import NotNumbers, read_numbers
 from botschool.policies.policy import Policy
 
 POPULATIONS = re.compile(r"S(?P<seed>\d+)G(?P<generation>\d+)\.npy", re.ASCII)
@@ -148,16 +149,13 @@ def _order(path: Path, count: int, sides: int) -> np.ndarray:
 def _numbers(path: Path, what: str) -> np.ndarray:
     """Return a table of finite numbers, float64."""
     try:
-        with open(path, "rb") as stream:
-            table = np.lib.format.read_array(stream, allow_pickle=False)
+        table = read_numbers(path)
     except FileNotFoundError:
         raise BotschoolError(f"There is no file {path}: check its name.") from None
     except OSError as error:
         raise BotschoolError(f"{path} cannot be read ({error.strerror or error}).") from error
-    except Exception:  # a damaged file can fail in any way
-        raise BotschoolError(
-            f"{path} holds no {what}: it is damaged, or not a .npy file of numbers."
-        ) from None
-    if table.dtype.kind not in "fiu" or table.ndim != 2 or not np.isfinite(table).all():
+    except NotNumbers as error:
+        raise BotschoolError(f"{path} holds no {what}: {error}.") from None
+    if table.ndim != 2 or not np.isfinite(table).all():
         raise BotschoolError(f"{path} holds no {what}: it is not a table of finite numbers.")
     return table.astype(np.float64)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import sys
-import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,12 +11,12 @@ from pathlib import Path
 import numpy as np
 
 from botschool.errors import BotschoolError
+from botschool.npy import NotNumbers, opened, read_numbers
 
 STEPS, BEST, BEST_POST, GENERATION_BEST, GENERATION_AVERAGE, PARAMETER_SIZE = range(6)
 """Columns of a stat file."""
 
 _RUN_FILE = re.compile(r"(?:(?P<kind>bestg|best|stat)S?(?P<seed>\d+)\.npy|S?(?P<fit>\d+)\.fit)")
-_MAGIC = b"\x93NUMPY"
 
 Warn = Callable[[str], None]
 
@@ -67,27 +66,16 @@ def read_stat(path: Path | str) -> np.ndarray:
     """
     path = Path(path)
     try:
-        with open(path, "rb") as file, warnings.catch_warnings():
-            if file.read(len(_MAGIC)) != _MAGIC:
-                raise BotschoolError(
-                    f"{path} is not a stat file: it is not in numpy's .npy format."
-                )
-            file.seek(0)
-            warnings.simplefilter("ignore")  # a damaged header causes warnings
-            numbers = np.lib.format.read_array(file, allow_pickle=False)
-    except BotschoolError:
-        raise
+        numbers = read_numbers(path)
     except FileNotFoundError as error:
         raise BotschoolError(
             f"there is no file {path}: name the statS<seed>.npy of a run, or its folder."
         ) from error
     except OSError as error:
         raise BotschoolError(f"{path} cannot be read ({error.strerror or error}).") from error
-    except Exception as error:  # a damaged header can fail in any way
-        raise BotschoolError(
-            f"{path} is not a stat file, or is damaged: run the experiment again with this seed."
-        ) from error
-    if numbers.dtype.kind not in "fiu" or numbers.ndim not in (1, 2):
+    except NotNumbers as error:
+        raise BotschoolError(f"{path} is not a stat file: {error}.") from error
+    if numbers.ndim not in (1, 2):
         raise BotschoolError(f"{path} is not a stat file: it does not hold a row of plain numbers.")
     if numbers.size == 0:
         raise BotschoolError(f"{path} holds no generation yet: let the run go on for a while.")
@@ -114,7 +102,8 @@ def read_fit(path: Path | str) -> dict[str, float | str]:
     """
     path = Path(path)
     try:
-        words = re.sub(r"\([^)]*\)", " ", path.read_text(encoding="utf-8")).split()
+        with opened(path) as file:
+            words = re.sub(r"\([^)]*\)", " ", file.read().decode()).split()
     except FileNotFoundError as error:
         raise BotschoolError(f"there is no file {path}: name the .fit file of a run.") from error
     except OSError as error:
@@ -149,6 +138,8 @@ def find_runs(folder: Path | str, warn: Warn = warn) -> list[Run]:
         paths = sorted(folder.iterdir())
     except FileNotFoundError as error:
         raise BotschoolError(f"there is no folder {folder}: check its name.") from error
+    except NotADirectoryError as error:
+        raise BotschoolError(f"{folder} is not a stat file (.npy), and no folder.") from error
     except OSError as error:
         raise BotschoolError(f"{folder} cannot be read ({error.strerror or error}).") from error
     runs: dict[int, Run] = {}

@@ -17,12 +17,14 @@ from __future__ import annotations
 import math
 import os
 from dataclasses import dataclass
+from io import TextIOWrapper
 
 import numpy as np
 
 from botschool import _core
 from botschool.errors import BotschoolError
 from botschool.inifile import refusal, shown
+from botschool.npy import opened
 
 SENSORS = 8
 RAW_UNITS = 1023.0
@@ -145,7 +147,7 @@ def _number(word: str) -> float | None:
 
 def _read(path: str | os.PathLike[str]) -> str:
     try:
-        with open(path, encoding="utf-8") as file:
+        with TextIOWrapper(opened(path), encoding="utf-8") as file:
             return file.read()
     except FileNotFoundError:
         raise refusal(path, 0, "there is no such file") from None

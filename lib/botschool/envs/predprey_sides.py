@@ -15,7 +15,8 @@ from gymnasium import spaces
 from botschool import config
 from botschool.config import PolicyConfig
 from botschool.envs.simulation import RENDER_MODES, Simulation
-from botschool.errors import BotschoolError
+from botschool.errors import BotschoolError, said
+from botschool.npy import NotNumbers, read_numbers
 from botschool.policies.policy import Interface, Policy
 from botschool.problems.native import INFOS
 
@@ -141,10 +142,8 @@ def _network(policy: Policy, opponent, robot: int) -> tuple[np.ndarray, np.ndarr
 
 def _saved(path: str | os.PathLike[str]) -> np.ndarray:
     try:
-        return np.load(path, allow_pickle=False)
+        return read_numbers(path)
     except FileNotFoundError:
         raise BotschoolError(f"There is no opponent's genotype {path}.") from None
-    except Exception:  # a damaged file can fail in any way
-        raise BotschoolError(
-            f"{path} is not a genotype: give a .npy file that a run saved."
-        ) from None
+    except (OSError, NotNumbers) as error:
+        raise BotschoolError(f"{path} is not a genotype: {said(error)}.") from None

@@ -12,6 +12,7 @@ import numpy as np
 from botschool import problems
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
+from botschool.npy import NotNumbers, read_numbers
 from botschool.problems.transition import Transition
 from botschool.seeds import POST_EVALUATION_SEED
 from botschool.terminal import has_display, readable
@@ -29,12 +30,13 @@ def read_genotype(path: Path) -> np.ndarray:
             "the path to such a file."
         )
     try:
-        with open(path, "rb") as stream:
-            return np.load(stream, allow_pickle=False)
-    except Exception:  # a damaged file can fail in any way
+        return read_numbers(path)
+    except OSError as error:
         raise BotschoolError(
-            f"{path} is not a genotype: it is damaged, or not a .npy file of numbers."
-        ) from None
+            f"{path} is not a genotype: it cannot be read ({error.strerror or error})."
+        ) from error
+    except NotNumbers as error:
+        raise BotschoolError(f"{path} is not a genotype: {error}.") from None
 
 
 class PostEvaluation:

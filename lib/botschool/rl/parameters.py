@@ -15,6 +15,7 @@ import yaml
 
 from botschool.errors import BotschoolError
 from botschool.inifile import nearest, shown
+from botschool.npy import opened
 
 NOT_HERE = {
     "policy": "use --policy",
@@ -99,7 +100,8 @@ def parse(items: Iterable[str]) -> dict[str, Any]:
 def read_settings(path: Path) -> dict[str, Any]:
     """Read the hyperparameters in a YAML file of `name: value`. Raises BotschoolError."""
     try:
-        found = yaml.safe_load(path.read_text(encoding="utf-8")) or {}
+        with opened(path) as file:
+            found = yaml.safe_load(file) or {}
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
         reason = getattr(error, "strerror", None) or "it is not YAML"
         raise BotschoolError(

@@ -17,6 +17,7 @@ from zipfile import ZipFile
 
 import numpy as np
 
+from botschool.npy import opened
 from botschool.output import save_npz
 
 if TYPE_CHECKING:
@@ -91,11 +92,13 @@ def checked(scaling: dict[str, np.ndarray], shape: tuple[int, ...]) -> dict[str,
 
 def numbers(path: Path) -> dict[str, np.ndarray]:
     """Return the arrays of an .npz file. Raises ValueError or OSError if it holds anything else."""
-    with ZipFile(path) as archive:
-        if sum(each.file_size for each in archive.infolist()) > MOST_BYTES:
-            raise ValueError("it is too large")
-    with np.load(path, allow_pickle=False) as file:
-        arrays = {name: file[name] for name in file.files}
+    with opened(path) as file:
+        with ZipFile(file) as archive:
+            if sum(each.file_size for each in archive.infolist()) > MOST_BYTES:
+                raise ValueError("it is too large")
+        file.seek(0)
+        with np.load(file, allow_pickle=False) as found:
+            arrays = {name: found[name] for name in found.files}
     for name, array in arrays.items():
         if not isinstance(array, np.ndarray) or array.dtype.kind not in "fiu":
             raise ValueError(f"{name} holds no numbers")
