@@ -1,15 +1,21 @@
 """Folders that cannot be written and disks that fill up: one sentence, and nothing is lost."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
+import tempfile
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from botschool import config
 from botschool.errors import BotschoolError
+from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.record import RunFiles
+from botschool.evolution.run import Run, evolve
 from botschool.output import check_output, save_npy, save_npz, written_whole
 from running import call, contents, experiment, finish, one_sentence, run_seeds, same, start
 
@@ -223,3 +229,72 @@ def test_names_are_checked_before_work_starts(tmp_path):
         with pytest.raises(BotschoolError, match=r"(cannot be written|is a folder).*[.]$"):
             check_output(tmp_path / name, [".png"])
     assert check_output(tmp_path / "X.PNG", [".png"]) == tmp_path / "X.PNG"
+
+
+# folders that disappear
+
+
+def evolved(own, folder, disturb=lambda folder: None, keep_every=None):
+    """Evolve nine generations and call `disturb` after the fourth; return the files."""
+    folder.mkdir(parents=True)
+
+    def report(run):
+        if run.record.generation == 4 and left.pop("disturb", None):
+            disturb(folder)
+
+    left = {"disturb": True}
+    run = (Coevolution if own.competitive else Run)(own, 1)
+    evolve(run, folder, report=report, generations=9, keep_every=keep_every)
+    return contents(folder)
+
+
+@pytest.mark.parametrize("what", ["folder", "parent", "events"])
+@pytest.mark.parametrize("saveeach", [0, 60])
+@pytest.mark.parametrize("keep_every", [None, 2])
+def test_a_removed_folder_is_made_again(what, saveeach, keep_every, tmp_path, capfd):
+    own = experiment(tmp_path, "CartPole-v1", "SSS", POLICY, maxmsteps=1, saveeach=saveeach)
+    whole = evolved(own, tmp_path / "whole" / "run", keep_every=keep_every)
+    assert capfd.readouterr().err == ""
+
+    def remove(folder):
+        shutil.rmtree({"folder": folder, "parent": folder.parent}.get(what, events(folder).parent))
+
+    def events(folder):
+        return next(folder.glob("tensorboardS1/*"))
+
+    folder = tmp_path / "again" / "run"
+    again = evolved(own, folder, remove, keep_every)
+    lost = set() if what == "events" else {f"bestgS1G{g}.npy" for g in (0, 2, 4)}
+    assert again == {name: content for name, content in whole.items() if name not in lost}
+    assert events(folder).stat().st_size == events(tmp_path / "whole" / "run").stat().st_size
+    assert capfd.readouterr().err.count("run was removed: it is made again") == (what != "events")
+
+
+def test_two_populations_outlive_their_folder(tmp_path):
+    path = tmp_path / "own.ini"
+    path.write_text(
+        "[EXP]\nenvironment = ErPredprey\nalgo = archive\n[POLICY]\nnrobots = 2\n"
+        "heterogeneous = 1\nmaxsteps = 20\nnhiddens = 2\n"
+        "[ALGO]\nsamplesize = 2\nncompetitors = 2\nsaveeach = 3\n"
+    )
+    whole = evolved(config.load(path), tmp_path / "whole")
+    again = evolved(config.load(path), tmp_path / "again", shutil.rmtree)
+    lost = {f"S1{fit}G{g}.npy" for fit in ("", "Fit") for g in (0, 3)}
+    assert again == {name: content for name, content in whole.items() if name not in lost}
+
+
+def test_a_run_whose_folder_cannot_be_made_again_is_saved_elsewhere(tmp_path, monkeypatch):
+    own = experiment(tmp_path, "CartPole-v1", "SSS", POLICY, maxmsteps=1, saveeach=0)
+    whole = evolved(own, tmp_path / "whole")
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+
+    def replace(folder):
+        shutil.rmtree(folder)
+        folder.write_text("a file")
+
+    with pytest.raises(BotschoolError, match=r"cannot be written .* -o (\S+) --resume\.") as caught:
+        evolved(own, tmp_path / "again", replace)
+    place = Path(re.search(r"-o (\S+) ", str(caught.value))[1])
+    assert place.parent == tmp_path and readable(place) >= 4
+    evolve(Run(own, 1), place, resume=True, generations=9)
+    assert contents(place) == whole

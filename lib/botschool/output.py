@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from io import BytesIO
@@ -75,6 +76,13 @@ def _temporary(path: Path, process: object) -> Path:
     return path.with_name(f".{path.stem}.{process}{path.suffix}")
 
 
+def make_again(folder: Path) -> None:
+    """Make a folder that was removed while a command writes into it, and say so on stderr."""
+    if not folder.exists():
+        print(f"warning: {folder} was removed: it is made again.", file=sys.stderr)
+        folder.mkdir(parents=True, exist_ok=True)
+
+
 def save_npy(path: Path, array: np.ndarray) -> None:
     """Write an .npy file completely or not at all. Raises BotschoolError."""
     buffer = BytesIO()
@@ -92,6 +100,7 @@ def save_npz(path: Path, arrays: dict[str, Any]) -> None:
 def save_bytes(path: Path, content: bytes) -> None:
     """Write a file with this content completely or not at all. Raises BotschoolError."""
     try:
+        make_again(path.parent)
         with written_whole(path) as temporary:
             temporary.write_bytes(content)
     except OSError as error:

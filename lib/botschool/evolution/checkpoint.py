@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import json
+import tempfile
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
 from botschool.config import Experiment, defaults, free, to_dict
 from botschool.errors import BotschoolError
+from botschool.evolution.record import RunFiles
 from botschool.output import save_npz
 
 FORMAT = 1
@@ -93,6 +95,21 @@ def resume(path: Path, run: Resumable) -> None:
             f"{path} was written by a version of botschool that evaluates robots differently (its "
             "best one gets another fitness here): use that version, or --force to start anew."
         )
+
+
+def rescued(run: Any, unsaved: BotschoolError) -> BotschoolError:
+    """Save a run whose folder cannot be written in a temporary folder; return the error to raise,
+    which says where.
+    """
+    try:
+        files = RunFiles(Path(tempfile.mkdtemp(prefix="botschool-")), run.seed)
+        save(files.checkpoint, run.experiment, run.seed, run.state())
+        run.write(files, ended=True)
+    except (OSError, BotschoolError):
+        return unsaved
+    return BotschoolError(
+        f"{unsaved} The run is in {files.folder}: go on with -o {files.folder} --resume."
+    )
 
 
 def _reason(error: Exception) -> str:

@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from botschool.evolution.record import STAT
-from botschool.output import cannot_write
+from botschool.output import cannot_write, make_again
 
 VERSION = "brain.Event:2"
 """The version that begins an event file."""
@@ -37,6 +37,13 @@ class Events:
         self._next = 0.0
         self._file: Path | None = None
 
+    def lost(self) -> bool:
+        """Return whether the file was removed; if so, the next `append` begins another one."""
+        if self._file is None or self._file.exists():
+            return False
+        self._file, self._next = None, 0.0
+        return True
+
     def append(self, first: int, rows: np.ndarray, columns: Sequence[str] = STAT) -> None:
         """Append generations from number `first`; rows: (generations, columns), steps first."""
         now = time.time()
@@ -50,6 +57,7 @@ class Events:
         try:
             if self._file is None:
                 shutil.rmtree(self._folder, ignore_errors=True)
+                make_again(self._folder.parent)
                 self._folder.mkdir()
                 self._file = self._folder / f"events.out.tfevents.{int(now)}"
             with open(self._file, "ab") as file:

@@ -311,6 +311,8 @@ def evolve(
 
     def log() -> None:
         nonlocal logged
+        if events.lost():
+            logged = 0
         events.append(logged, run.record.rows(logged), run.record.columns)
         logged = run.record.generation
 
@@ -340,11 +342,13 @@ def evolve(
     except Interrupted:
         save(ended=True)
         return False
-    except Exception:
+    except Exception as error:
         with suppress(BotschoolError):
             run.settle()
-        with suppress(BotschoolError):
+        try:
             save(ended=True)
+        except BotschoolError as unsaved:
+            raise checkpoint.rescued(run, unsaved) from error
         raise
     finally:
         run.problem.close()
