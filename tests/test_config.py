@@ -11,7 +11,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from botschool import config, inifile
+from botschool import config, npy
 from botschool.config import (
     Coevo2Config,
     Exp,
@@ -109,7 +109,8 @@ ARCHIVE_DEFAULTS = {
 }
 COMPETITIVE_DEFAULTS = {
     "coevo2": COEVO2_DEFAULTS,
-    "archive": ARCHIVE_DEFAULTS | {"addtoarchiveevery": 10},
+    "archive": ARCHIVE_DEFAULTS
+    | {"addtoarchiveevery": 10, "seldifferentiated": 0, "preferential": 1},
     "archivestar": ARCHIVE_DEFAULTS
     | {"popsize": 5, "addtoarchiveevery": 10, "seldifferentiated": 1, "preferential": 1},
     "maxsolvestar": ARCHIVE_DEFAULTS | {"nphases": 10, "archivelen": 25000},
@@ -332,11 +333,12 @@ REFUSED = {
         "line 6",
         "below 2 x nhiddens = 10",
     ),
-    "recurrent in two layers": (
-        text("nlayers = 2\narchitecture = 1"),
-        "line 5",
+    "too many recurrent neurons": (
+        text("nlayers = 2\narchitecture = 1\nnhiddens = 5001"),
+        "line 6",
         "one hidden layer",
-        "set nlayers = 1 or architecture = 0",
+        "10002",
+        "lower nhiddens",
     ),
 }
 
@@ -379,7 +381,7 @@ def test_unreadable_file(tmp_path, monkeypatch):
     def deny(*args):
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(inifile, "open", deny, raising=False)
+    monkeypatch.setattr(npy, "open", deny, raising=False)
     assert "cannot be read (Permission denied)" in refused(write(tmp_path, text()))
 
 
@@ -427,7 +429,7 @@ def test_describe_lists_every_hyperparameter_with_default_and_help():
     assert (
         len(listed)
         == len(rows)
-        == 5 + 23 + 17 + 7 + 7 + 4 + 6 + 6 + 6 + 9 + 11 + 13 + 12 + 8 + 6 + 4 + 6 + 9
+        == 5 + 23 + 17 + 7 + 7 + 4 + 6 + 6 + 6 + 9 + 13 + 13 + 12 + 8 + 6 + 4 + 6 + 9
     )
     for section, defaults in (
         (

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import botschool.evolution.algorithms  # noqa: F401  (fills ALGORITHMS)
+from botschool import _core, sisters
 from botschool.arenas.plan import PROBLEM, Plan, PlanError
 from botschool.arenas.robots import MODELS, find
 from botschool.arenas.section import WORDS, ArenaConfig
@@ -25,8 +26,8 @@ from botschool.evolution.algorithms.openaies import OpenAIESConfig
 from botschool.evolution.algorithms.own import OwnConfig
 from botschool.evolution.algorithms.sss import SSSConfig
 from botschool.inifile import Entry, nearest, read_sections, refusal, shown
-from botschool.policies.hyperparameters import NO_YES, PolicyConfig, conflicts, hyper
-from botschool.wrappers import keywords, parse
+from botschool.policies.hyperparameters import NO_YES, PolicyConfig, conflicts, hyper, one_layer
+from botschool.wrappers import keywords, parse, spelled
 
 __all__ = [
     "NO_YES",
@@ -55,6 +56,7 @@ class Exp:
         "OpenAI-ES",
         "the evolutionary algorithm (or your own, as module:name)",
         choices={name: ALGORITHMS[name].explanation for name in sorted(ALGORITHMS)},
+        same=sisters.SAME,
         own=r"[A-Za-z_][\w.]*:[A-Za-z_]\w*",
     )
     robots: str = hyper(
@@ -79,6 +81,8 @@ class Exp:
 SECTIONS = ("EXP", "POLICY", "ALGO")
 ARENA = "ARENA"
 """A section for experiments with a declared arena."""
+ENV = "ENV"
+"""A section of evorobotpy3: its lines are options of the environment."""
 ALIASES = {
     f.metadata["alias"]: f.name.lower()
     for entry in ALGORITHMS.values()
@@ -98,6 +102,8 @@ class Experiment:
     arena: Any = None
     """The section [ARENA] (arenas.section.ArenaConfig), None without one."""
     path: Path | None = field(default=None, compare=False)
+    notes: tuple[str, ...] = field(default=(), compare=False)
+    """What of the file means something else here, in sentences."""
 
     @property
     def competitive(self) -> bool:
@@ -125,7 +131,7 @@ def load(path: str | PathLike[str]) -> Experiment:
 
     Raises BotschoolError; its sentence names the file, the line, the error and the remedy.
     """
-    return _experiment(read_sections(path, (*SECTIONS, ARENA), ALIASES), path)
+    return _experiment(read_sections(path, (*SECTIONS, ARENA, ENV), ALIASES), path)
 
 
 def to_dict(experiment: Experiment) -> dict[str, dict[str, Any]]:
@@ -189,15 +195,36 @@ def _experiment(sections: dict[str, dict[str, Entry]], path: str | PathLike[str]
             0,
             "section [EXP] is missing: add a line [EXP] with the line environment = NAME under it",
         )
-    exp = _build(Exp, "EXP", sections["EXP"], path)
-    policy = _build(PolicyConfig, "POLICY", sections.get("POLICY", {}), path)
-    algo = _build(ALGORITHMS[exp.algo].config, "ALGO", sections.get("ALGO", {}), path)
+    notes: list[str] = []
+    exp = _build(Exp, "EXP", sections["EXP"], path, notes)
+    if sections.get(ENV):
+        notes += _take_options(exp, sections[ENV], path)
+    policy = _build(PolicyConfig, "POLICY", sections.get("POLICY", {}), path, notes)
+    algo = _build(ALGORITHMS[exp.algo].config, "ALGO", sections.get("ALGO", {}), path, notes)
     arena = _arena(exp, sections.get(ARENA), path)
-    experiment = Experiment(exp, policy, algo, arena, Path(path))
     lines = {key: entry.line for entries in sections.values() for key, entry in entries.items()}
     for keys, sentence in (*conflicts(policy), *ALGORITHMS[exp.algo].conflicts(algo)):
         raise refusal(path, max(lines.get(key.lower(), 0) for key in keys), sentence)
-    return experiment
+    policy, note = one_layer(policy)
+    return Experiment(exp, policy, algo, arena, Path(path), (*notes, *note))
+
+
+def _take_options(exp: Exp, entries: dict[str, Entry], path: str | PathLike[str]) -> list[str]:
+    """Make the lines of [ENV] options of the environment; return a note if it has none."""
+    first = next(iter(entries.values()))
+    if exp.options:
+        raise refusal(
+            path, first.line, "section [ENV] and options mean the same: keep one of the two"
+        )
+    native = {name for info in _core.native_problems() for name in (info["name"], info["alias"])}
+    if exp.environment in native and not exp.environment.startswith("Planar"):
+        return [f"section [ENV] is left out: {exp.environment} has no options."]
+    exp.options = spelled({entry.key: entry.value for entry in entries.values()})
+    try:
+        keywords(exp.options)
+    except BotschoolError as error:
+        raise refusal(path, first.line, str(error).rstrip(".")) from None
+    return []
 
 
 def _arena(exp: Exp, entries: dict[str, Entry] | None, path: str | PathLike[str]) -> Any:
@@ -212,7 +239,7 @@ def _arena(exp: Exp, entries: dict[str, Entry] | None, path: str | PathLike[str]
             f"section [ARENA] declares an arena, but environment is {exp.environment}: set "
             f"environment = {PROBLEM}, or remove the section",
         )
-    arena = _build(ArenaConfig, ARENA, entries or {}, path)
+    arena = _build(ArenaConfig, ARENA, entries or {}, path, [])
     try:
         Plan.of(arena)
     except PlanError as error:
@@ -221,12 +248,23 @@ def _arena(exp: Exp, entries: dict[str, Entry] | None, path: str | PathLike[str]
     return arena
 
 
-def _build(cls: type, section: str, entries: dict[str, Entry], path: str | PathLike[str]) -> Any:
-    """Return an instance of `cls` from the entries of its section."""
+def _build(
+    cls: type,
+    section: str,
+    entries: dict[str, Entry],
+    path: str | PathLike[str],
+    notes: list[str],
+) -> Any:
+    """Return an instance of `cls` from the entries of its section; add to the notes."""
     known = {f.name.lower(): f for f in fields(cls)}
     values = {}
     for key, entry in entries.items():
-        if key not in known:
+        if key in sisters.NEEDLESS and cls is not OwnConfig:
+            said = f"line {entry.line}: {entry.key} is left out: "
+            notes.append(f"{said}{sisters.NEEDLESS[key]}.")
+            continue
+        alias = known[key].metadata.get("alias") if key in known else None
+        if key not in known or entry.key.lower() not in (key, alias):
             raise refusal(path, entry.line, _unknown(entry.key, section, cls))
         try:
             values[known[key].name] = _value(known[key], entry)
@@ -289,6 +327,9 @@ def _text(f: Field, raw: Any, said: str) -> str:
         return raw
     if "own" in f.metadata and re.fullmatch(f.metadata["own"], str(raw), re.ASCII):
         return str(raw)
+    raw = f.metadata.get("same", {}).get(str(raw).lower(), raw)
+    if remedy := sisters.instead(f.name, str(raw)):
+        raise ValueError(f"{said} is no algorithm of botschool es: {remedy}")
     if str(raw).lower() not in choices:
         raise ValueError(f"{said} is unknown: {nearest(str(raw), choices.values())}")
     return choices[str(raw).lower()]
@@ -339,6 +380,8 @@ def _unknown(key: str, section: str, cls: type) -> str:
             return f"{key} belongs in section [{other}], not [{section}]: move the line there"
     if cls is OwnConfig:
         return f"{key} is an argument of your own strategy: write options = {key}=VALUE"
+    if remedy := sisters.instead("key", key):
+        return f"{key} is no hyperparameter here: {remedy}"
     owners = [
         algo
         for algo in sorted(ALGORITHMS)

@@ -113,6 +113,20 @@ def keywords(text: str) -> dict[str, Any]:
     return found
 
 
+def spelled(options: dict[str, str]) -> str:
+    """Return the text from which `keywords` reads these options; a value that is no number, list
+    and so on is a word.
+    """
+    return ", ".join(f"{name}={_literal(value)}" for name, value in options.items())
+
+
+def _literal(text: str) -> str:
+    try:
+        return repr(ast.literal_eval(text))
+    except (ValueError, SyntaxError, MemoryError, RecursionError):
+        return repr(text)
+
+
 def _split(text: str) -> list[str]:
     """Split a text at the commas outside of brackets."""
     parts, depth = [""], 0

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from botschool.cli import cluster_options as across
+from botschool.cli.experiments import experiment_of
 from botschool.errors import BotschoolError
-from botschool.paths import own_file
 
 if TYPE_CHECKING:
     from botschool.config import Experiment
@@ -116,11 +116,9 @@ def es(
             raise BotschoolError("Name the experiment: add -f FILE.ini.")
         _list_hyperparameters()
         return
-    from botschool import config
-
     machines = across.machines(cluster, no_tls, patience, workers)
     workers = workers or 1
-    experiment = config.load(own_file(file, "experiments"))
+    experiment = experiment_of(file)
     if page:
         from botschool.analysis.run_page import write_page
 

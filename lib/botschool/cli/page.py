@@ -38,17 +38,16 @@ def page(
 
     The page is one file: open it from a folder, a USB stick or a website.
     """
-    from botschool.config import load
+    from botschool.cli.experiments import experiment_of
     from botschool.page import write_page
     from botschool.page.training import write_training_page
     from botschool.paths import own_file
     from botschool.render.watch import read_genotype
 
-    file = own_file(file, "experiments")
-    if file.suffix != ".ini" and not file.is_file():
+    if file.suffix != ".ini" and not own_file(file, "experiments").is_file():
         write_training_page(output, str(file), seed, genotype)
     else:
         robot = None if genotype is None else own_file(genotype, "genotypes")
         saved = None if robot is None else read_genotype(robot)
-        write_page(output, load(file), seed, saved, robot.name if robot else "")
+        write_page(output, experiment_of(file), seed, saved, robot.name if robot else "")
     print(f"Wrote {output} ({output.stat().st_size / 1000:.0f} KB): open it in a browser.")

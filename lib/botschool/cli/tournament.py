@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from botschool.cli import cluster_options as options
+from botschool.cli.experiments import experiment_of
 from botschool.errors import BotschoolError
 from botschool.paths import own_file
 
@@ -79,12 +80,11 @@ def tournament(
     """
     if file is None:
         raise BotschoolError("Name the experiment of the run: add -f FILE.ini.")
-    from botschool import config
     from botschool.analysis import coevolution
     from botschool.terminal import has_display
 
     machines = options.machines(cluster, no_tls, patience, workers)
-    experiment = config.load(own_file(file, "experiments"))
+    experiment = experiment_of(file)
     folder = own_run(folder, experiment, seed)
     wanted = coevolution.generations_in(generations, every)
     coevolution.tournament(

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field, fields, make_dataclass
+from dataclasses import dataclass, field, fields, make_dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from botschool import _core
@@ -18,6 +18,8 @@ from botschool.inifile import shown
 NO_YES = {0: "no", 1: "yes"}
 CONVOLUTIONAL = 4
 """The `architecture` that reads images."""
+MOST_NEURONS = 10_000
+"""Largest number of neurons in a hidden layer, as lib/evonet/hyperparameters.hpp has it."""
 WEIGHT_DECAY = {0: "none", 1: "by 0.005 x centre", 2: "by 0.005 x sign(centre)"}
 
 
@@ -125,13 +127,34 @@ def conflicts(p: PolicyConfig) -> Iterator[tuple[tuple[str, ...], str]]:
             f"nhiddens2 = {p.nhiddens2} leaves no neuron to the first layer: "
             f"it must be below 2 x nhiddens = {2 * p.nhiddens}",
         )
-    if p.architecture in (1, 2, 3) and p.nhiddens and p.nlayers != 1:
+    if _recurrent(p) and p.nhiddens * p.nlayers > MOST_NEURONS:
         yield (
-            ("architecture",),
-            f"architecture = {p.architecture} is recurrent and has one hidden layer, "
-            f"but nlayers is {p.nlayers}: set nlayers = 1 or architecture = 0",
+            ("nhiddens", "nlayers"),
+            f"architecture = {p.architecture} puts all nhiddens x nlayers = "
+            f"{p.nhiddens * p.nlayers} neurons into one hidden layer, which has at most "
+            f"{MOST_NEURONS}: lower nhiddens",
         )
     yield from _convolutional(p)
+
+
+def _recurrent(p: PolicyConfig) -> bool:
+    """Return whether hyperparameters name several hidden layers of a recurrent network."""
+    return p.architecture in (1, 2, 3) and p.nhiddens > 0 and p.nlayers > 1
+
+
+def one_layer(p: PolicyConfig) -> tuple[PolicyConfig, list[str]]:
+    """Return hyperparameters in which a recurrent network has one hidden layer, and a note if that
+    is a change: as in evorobotpy2, the layer has the neurons of all layers.
+    """
+    if not _recurrent(p):
+        return p, []
+    neurons = p.nhiddens * p.nlayers
+    note = (
+        f"architecture = {p.architecture} is recurrent and has one hidden layer, so nlayers = "
+        f"{p.nlayers} makes one of nhiddens x nlayers = {neurons} neurons."
+    )
+    changed: dict[str, Any] = {"nhiddens": neurons, "nlayers": 1, "nhiddens2": 0}
+    return replace(p, **changed), [note]
 
 
 def _convolutional(p: PolicyConfig) -> Iterator[tuple[tuple[str, ...], str]]:

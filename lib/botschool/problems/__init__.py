@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from botschool import sisters
 from botschool.arenas.plan import PROBLEM, Plan
 from botschool.errors import BotschoolError
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
@@ -79,7 +80,12 @@ def of(experiment) -> Problem:
     exp = experiment.exp
     robots = [name.strip() for name in exp.robots.split(",") if name.strip()]
     chosen = {"options": exp.options, "competitive": experiment.competitive}
-    return make(exp.environment, robots, exp.wrappers, **chosen, plan=experiment.plan)
+    try:
+        return make(exp.environment, robots, exp.wrappers, **chosen, plan=experiment.plan)
+    except BotschoolError:
+        if sentence := sisters.missing(exp.environment):
+            raise BotschoolError(sentence) from None
+        raise
 
 
 def names() -> list[str]:

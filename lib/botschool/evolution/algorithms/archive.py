@@ -9,13 +9,14 @@ from the other side's archive. The best sample of some turns enters the archive.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from botschool.evolution.algorithm import algorithm
 from botschool.evolution.algorithms.halloffame import HallOfFame, HallOfFameConfig
-from botschool.policies.hyperparameters import hyper
+from botschool.policies.hyperparameters import NO_YES, hyper
 from botschool.seeds import generator
 
 
@@ -26,6 +27,10 @@ class ArchiveConfig(HallOfFameConfig):
     addtoarchiveevery: int = hyper(
         10, "turns of a side between additions to its archive", low=1, high=1000000000
     )
+    seldifferentiated: int = hyper(0, "no effect with one centre a side", choices=NO_YES)
+    preferential: int = hyper(
+        1, "individuals drawn for an opponent (archivestar can draw more)", low=1, high=10000
+    )
 
 
 @algorithm(
@@ -33,6 +38,16 @@ class ArchiveConfig(HallOfFameConfig):
 )
 class Archive(HallOfFame):
     """One centre per side; all archived opponents are equally likely."""
+
+    @staticmethod
+    def conflicts(config: ArchiveConfig) -> Iterator[tuple[tuple[str, ...], str]]:
+        """Yield hyperparameters that cannot go together."""
+        if config.preferential > 1 and not config.seldifferentiated:
+            yield (
+                ("preferential",),
+                f"preferential = {config.preferential} prefers strong opponents, but archive draws "
+                "all equally: set algo = archivestar and popsize = 1, or remove the line",
+            )
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
         """Return candidates (1, 2 * samplesize, parameters), opponents (1, samplesize,

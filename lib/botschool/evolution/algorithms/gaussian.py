@@ -27,7 +27,11 @@ class GaussianConfig(RunConfig):
     """The hyperparameters that all three have in section [ALGO]."""
 
     popsize: int = hyper(
-        0, "candidates in a generation, 0 for 4 + 3 ln(parameters)", low=0, high=1000000
+        0,
+        "candidates in a generation, 0 for 4 + 3 ln(parameters)",
+        low=0,
+        high=1000000,
+        alias="batchsize",
     )
     sigma: float = hyper(0.3, "standard deviation of the first candidates", above=0, high=1000)
 

@@ -47,7 +47,7 @@ class HallOfFameConfig:
         high=1000000000,
         free=True,
     )
-    popsize: int = hyper(1, "evolving centres of each side", choices={1: "as many as it has"})
+    popsize: int = hyper(1, "evolving centres of each side", choices={1: "archivestar has more"})
     samplesize: int = hyper(
         20, "perturbations per generation, two candidates each", low=1, high=1000000
     )
