@@ -263,7 +263,7 @@ def test_plotstat_draws_it(whole, command, tmp_path):
     [
         ("archive", {"heterogeneous": 0}, {}, ["archive evolves", "set heterogeneous = 1"]),
         ("archivestar", {"normalize": 1}, {}, ["archivestar does not", "set normalize = 0"]),
-        ("archive", {}, {"popsize": 2}, ["popsize = 2 is out of range", "1 (as many"]),
+        ("archive", {}, {"popsize": 2}, ["popsize = 2 is out of range", "1 (archivestar has more"]),
         ("maxsolvestar", {}, {"popsize": 0}, ["popsize = 0 is out of range"]),
         ("archivestar", {}, {"popsize": 0}, ["popsize = 0 is out of range", "from 1 to"]),
         ("archive", {}, {"checkoverfiteveryn": 5}, ["checkoverfiteveryn = 5", "0 (never"]),

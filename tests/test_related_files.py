@@ -2,6 +2,8 @@
 write instead (docs/specification.md, "Files of related projects").
 """
 
+from dataclasses import fields
+
 import numpy as np
 import pytest
 
@@ -88,6 +90,15 @@ def test_keys_that_are_not_needed_are_left_out_and_said(key, tmp_path):
     assert experiment == load(tmp_path, text("popsize = 20"), "GA")
     experiment = load(tmp_path, text(f"popsize = 20\n{key} = 1"), "GA")
     assert len(experiment.notes) == 1 and f"line 6: {key} is left out" in experiment.notes[0]
+
+
+def test_no_name_of_ours_is_among_theirs():
+    ours = {f.name for entry in ALGORITHMS.values() for f in fields(entry.config)}
+    ours |= {f.name for f in (*fields(config.Exp), *fields(config.PolicyConfig))}
+    assert not [key for key in ours if key in sisters.NEEDLESS or sisters.instead("key", key)]
+    assert not [
+        algo for algo in ALGORITHMS if algo in sisters.SAME or sisters.instead("algo", algo)
+    ]
 
 
 @pytest.mark.parametrize("algo", sisters.INSTEAD["algo"])

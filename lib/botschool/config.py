@@ -350,7 +350,7 @@ def _allowed(f: Field) -> str:
     limits = f.metadata
     if "choices" in limits:
         *most, last = [f"{value} ({meaning})" for value, meaning in limits["choices"].items()]
-        return f"{', '.join(most)} or {last}"
+        return f"{', '.join(most)} or {last}" if most else last
     if f.default is MISSING:
         return "a name such as CartPole-v1"
     if "form" in limits:
