@@ -12,6 +12,7 @@ from botschool.labs.check import Checked
 from botschool.labs.declare import WORDS, Lab
 from botschool.labs.folder import Place
 from botschool.labs.saved import SavedRun
+from botschool.labs.sheet import uncommented
 from botschool.output import save_bytes
 
 _STYLE = """
@@ -30,7 +31,8 @@ b.answer, b.chosen { color: #0072b2 } .open { opacity: .55 } li { margin: .3rem 
 def write_report(place: Place, checked: Checked, folder: Path) -> Path:
     """Write report.html into the laboratory's folder; folder: for temporary files."""
     lab = place.lab
-    text = re.sub(r"^Write after `answer:`.*?\n\n", "", place.sheet().text, flags=re.M | re.S)
+    blocks = place.sheet().text.split("\n\n")
+    text = "\n\n".join(b for b in blocks if not b.startswith("Write after `answer:`"))
     title, *sections = re.split(r"^## +", text, flags=re.MULTILINE)
     body = [_markdown(title)]
     for section in sections:
@@ -95,7 +97,7 @@ def _markdown(text: str) -> str:
 
 
 def _block(block: str) -> str:
-    block = re.sub(r"[ \t]*<!--.*?-->", "", block, flags=re.DOTALL).strip("\n")
+    block = uncommented(block).strip("\n")
     lines = block.splitlines()
     if not block.strip():
         return ""
@@ -126,8 +128,8 @@ def _inline(text: str) -> str:
 
 def _answers(text: str) -> str:
     text = re.sub(r"\*([^*\n]+)\*", r"<em>\1</em>", text)
-    text = re.sub(r"answer:[ \t]*(.*)", r'<b class="answer">\1</b>', text)
-    return re.sub(r"\[\s*([xX]?)\s*\]\s*([^\[\n<]+)", _box, text)
+    text = re.sub(r"answer:[ \t]{0,9}(.*)", r'<b class="answer">\1</b>', text)
+    return re.sub(r"\[\s{0,9}([xX]?)\s{0,9}\]\s{0,9}([^\[\n<]+)", _box, text)
 
 
 def _box(found: re.Match) -> str:

@@ -14,10 +14,12 @@ from botschool.labs.declare import Field, Lab
 from botschool.sandbox.inside import read_inside
 
 _MARKER = re.compile(r"<!--\s*field:\s*([\w-]+)\s*-->")
-_ANSWER = re.compile(r"answer:[ \t]*(.*)", re.IGNORECASE)
-_BOX = re.compile(r"\[\s*([xX]?)\s*\]\s*([^\[\n]+)")
-_NUMBER = r"[-+\u2212]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_ANSWER = re.compile(r"answer:(.*)", re.IGNORECASE)
+_BOX = re.compile(r"\[\s{0,9}([xX]?)\s{0,9}\]\s{0,9}([^\[\n]+)")
+_NUMBER = re.compile(r"(?<![\w.])[-+\u2212]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?(?![\w.]*\d)")
 MAX_BYTES = 200_000
+MAX_ANSWER = 100
+"""Characters of an answer in numbers."""
 
 
 class Unreadable(BotschoolError):
@@ -60,7 +62,7 @@ class Sheet:
     @property
     def prediction(self) -> str:
         """Return the prediction without differences that editors cause: spaces, line ends."""
-        text = re.sub(r"<!--.*?-->", " ", self.section("Prediction"), flags=re.DOTALL)
+        text = uncommented(self.section("Prediction"), " ")
         return " ".join(text.replace("[X]", "[x]").split())
 
     def raw(self, id: str) -> str:
@@ -131,6 +133,12 @@ class Sheet:
         return " ".join(found[1].split()) if found else ""
 
 
+def uncommented(text: str, instead: str = "") -> str:
+    """Return a text with `instead` in place of each complete comment."""
+    head, end, rest = text.rpartition("-->")  # so each search for the end of a comment finds one
+    return re.sub(r"<!--.*?-->", instead, head + end, flags=re.DOTALL) + rest
+
+
 def _quoted(raw: str) -> str:
     lines = [line.strip()[1:] for line in raw.splitlines() if line.strip().startswith(">")]
     return " ".join(" ".join(lines).split())
@@ -142,9 +150,11 @@ def numbers_in(text: str, what: str, count: int, where: str = "after answer:") -
     asked = "a number" if count == 1 else f"{count} numbers, as 1.5 to 2.5,"
     if not text:
         raise Unreadable(f"{what}: empty, write {asked} {where}.")
+    if len(text) > MAX_ANSWER:
+        raise Unreadable(f"{what}: '{text[:30]} ...' is too long, write {asked} {where}.")
     if re.search(r"\d,\d", text):
         raise Unreadable(f"{what}: write a point instead of the comma in '{text[:30]}'.")
-    found = re.findall(rf"(?<![\w.]){_NUMBER}(?![\w.]*\d)", text)
+    found = _NUMBER.findall(text)
     if len(found) != count:
         raise Unreadable(f"{what}: '{text[:30]}' cannot be read, write {asked} {where}.")
     return tuple(float(each.replace("\u2212", "-")) for each in found)
@@ -176,9 +186,9 @@ def seeds_of(sheet: Sheet, lab: Lab, replications: int | None = None) -> dict[st
 
 
 def check_specific(sheet: Sheet, lab: Lab) -> None:
-    """Raise BotschoolError unless the sheet has a name and a complete prediction."""
+    """Raise BotschoolError unless the sheet has name, course and a complete prediction."""
     try:
-        named = sheet.text_of("name")
+        named, _ = sheet.text_of("name"), sheet.text_of("course")
     except Unreadable as error:
         raise BotschoolError(str(error)) from None
     if not named:

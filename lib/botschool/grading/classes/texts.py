@@ -164,7 +164,7 @@ def text_of_page(page: str) -> str:
 
 _HEADINGS = {"h1", "h2", "h3", "h4"}
 _TAG = re.compile(r"<(?:(/?)([a-zA-Z][^<>]*)|[!?][^<>]*)>")
-_CLASS = re.compile(r"""\bclass *= *["']?([^"'<>]*)""", re.IGNORECASE)
+_CLASS = re.compile(r"""\bclass *= {0,9}["']?([^"'<>]*)""", re.IGNORECASE)
 
 
 def _without_comments(page: str) -> str:
