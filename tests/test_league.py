@@ -107,7 +107,7 @@ def spoiled(path, **arrays):
     ("change", "says"),
     [
         ({"genotype": None}, "lacks"),
-        ({"name": 5}, "no name or experiment as text"),
+        ({"name": 5.0}, "no name or experiment as text"),
         ({"name": np.array([{}], dtype=object)}, "damaged"),
         ({"experiment": "{"}, "cannot be read"),
         (
@@ -122,7 +122,7 @@ def spoiled(path, **arrays):
 def test_what_is_no_entry_is_refused_in_a_sentence(tmp_path, change, says):
     good = entry(tmp_path, ROBOTS / "planarhopper.npy", "planarhopper", "Ada")
     if change.get("genotype") is not None and change["genotype"].size > 9:
-        np.savez_compressed(good, genotype=change["genotype"])
+        np.savez_compressed(good, name="", experiment="", **change)
     else:
         spoiled(good, **change)
     with pytest.raises(Unusable, match=says):

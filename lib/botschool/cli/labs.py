@@ -8,6 +8,8 @@ from typing import Annotated
 import typer
 
 app = typer.Typer()
+MAX_REFUSED = 50
+"""Files that the league names because they are no entries."""
 
 
 @app.command(epilog="Example: botschool lab 9 start, then lab 9 run, lab 9 check, lab 9 report")
@@ -116,6 +118,8 @@ def league(
         write_page(found, output, temporary, title)
     table = output.with_suffix(".csv")
     save_bytes(table, results_csv(found))
-    for sentence in found.refused:
+    for sentence in found.refused[:MAX_REFUSED]:
         print(f"not in the league: {sentence}")
+    if more := found.refused[MAX_REFUSED:]:
+        print(f"not in the league: {len(more)} more files")
     print(f"Page: {output}   Table: {table}")

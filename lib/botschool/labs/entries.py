@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,9 +13,12 @@ from botschool import problems
 from botschool.config import Experiment, from_dict, load, to_dict
 from botschool.errors import BotschoolError
 from botschool.labs.declare import load_lab
+from botschool.labs.saved import member
 from botschool.output import save_npz
 from botschool.policies.policy import Policy
 from botschool.problems.base import Problem
+from botschool.render.watch import read_genotype
+from botschool.sandbox.inside import read_inside
 
 DISCIPLINES = {
     "PlanarHopper-v5": "hopper",
@@ -39,7 +41,7 @@ class Unusable(ValueError):
     """The file is no entry; the text is a sentence that follows the file's name."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Entry:
     """A robot in the league."""
 
@@ -67,10 +69,7 @@ def write_entry(genotype: Path, experiment: Path | None, name: str, output: Path
     experiment: an .ini file; None for a run of a laboratory, whose folders tell the experiment.
     """
     told = load(experiment) if experiment else _of_laboratory(genotype)
-    try:
-        numbers = np.load(genotype, allow_pickle=False)
-    except (OSError, ValueError, EOFError):
-        raise BotschoolError(f"{genotype} cannot be read: name a bestgS*.npy of a run.") from None
+    numbers = read_genotype(genotype)
     parts = to_dict(told)
     about = json.dumps({"exp": parts["exp"], "policy": parts["policy"]})
     name = " ".join(name.split())[:MAX_NAME]
@@ -97,24 +96,31 @@ def _of_laboratory(genotype: Path) -> Experiment:
 def read_entry(path: Path) -> Entry:
     """Read an entry. Raises Unusable."""
     try:
-        if path.is_symlink() or not path.is_file():
-            raise Unusable("is a link or no file: hand in the file itself.")
-        if path.stat().st_size > MAX_BYTES:
-            raise Unusable(f"is larger than {MAX_BYTES // 2**20} MB: an entry has some KB.")
-        with zipfile.ZipFile(path) as archive:
-            if sum(each.file_size for each in archive.infolist()) > MAX_CONTENT:
-                raise Unusable(f"unpacks to more than {MAX_CONTENT // 2**20} MB.")
-        with np.load(path, allow_pickle=False) as arrays:
-            name, about, genotype = (arrays[key] for key in ("name", "experiment", "genotype"))
+        content = read_inside(path.parent, path.name, MAX_BYTES)
+    except OSError:
+        raise Unusable("is a link, or cannot be read: hand in the file itself.") from None
+    if len(content) > MAX_BYTES:
+        raise Unusable(f"is larger than {MAX_BYTES // 2**20} MB: an entry has some KB.")
+    try:
+        name, about, genotype = (
+            member(content, key, MAX_CONTENT) for key in ("name", "experiment", "genotype")
+        )
     except KeyError as error:
-        raise Unusable(f"lacks {str(error).split()[0]}: make it with botschool enter.") from None
-    except (OSError, ValueError, EOFError, zipfile.BadZipFile, NotImplementedError) as error:
-        if isinstance(error, Unusable):
-            raise
-        raise Unusable("is damaged, or no entry: make it with botschool enter.") from None
+        raise Unusable(f"lacks {error}: make it with botschool enter.") from None
+    except ValueError as error:
+        raise Unusable(
+            f"is damaged, or no entry ({error}): make it with botschool enter."
+        ) from None
     if name.dtype.kind != "U" or name.shape or about.dtype.kind != "U" or about.shape:
         raise Unusable("has no name or experiment as text: make it with botschool enter.")
-    return read_robot(path.name, str(name), str(about), genotype)
+    try:
+        return read_robot(path.name, str(name), str(about), genotype)
+    except Unusable:
+        raise
+    except Exception as error:  # what an entry states can be wrong in any way
+        raise Unusable(
+            f"cannot play ({type(error).__name__}): make it with botschool enter."
+        ) from None
 
 
 def read_robot(file: str, name: str, about: str, genotype: np.ndarray) -> Entry:
@@ -145,7 +151,8 @@ def read_robot(file: str, name: str, about: str, genotype: np.ndarray) -> Entry:
             "algo": {},
         }
         experiment = from_dict(parts, "its experiment")
-        entry = Entry(file, " ".join(name.split())[:MAX_NAME], experiment, genotype)
+        shown = " ".join(name.encode("utf-8", "replace").decode().split())[:MAX_NAME]
+        entry = Entry(file, shown, experiment, genotype)
         entry.robot()
     except BotschoolError as error:
         raise Unusable(f"cannot play: {error}") from None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -22,7 +23,8 @@ SEED, EPISODES = 1, 5
 RACE_STEPS, CHASE_STEPS, POLE_STEPS = 1000, 1000, 500
 POLES = tuple(round(1.0 * 1.1**k, 2) for k in range(41))
 """Lengths of poles in metres; the first one is CartPole's."""
-MAX_ENTRIES = 1000
+MAX_ENTRIES, MAX_HUNTERS = 1000, 200
+"""Robots that compete, and those of them that chase each other, each pair for 40 ms."""
 UNITS = {
     "hopper": "metres in 8 seconds",
     "walker": "metres in 8 seconds",
@@ -60,16 +62,15 @@ def compete(folder: Path, told: Callable[[str], None] = lambda text: None) -> Le
     """Let all entries of a folder compete. Raises BotschoolError if there are none."""
     if not folder.is_dir():
         raise BotschoolError(f"There is no folder {folder}: name the one with the entries.")
-    named = folder.rglob("*.robot*.npz")  # platforms and browsers number copies: x.robot-1.npz
-    files = sorted(path for path in named if ".git" not in path.parts)
-    entries, refused = [], []
-    for path in files[:MAX_ENTRIES]:
+    files, entries, refused = in_turn(folder), [], []
+    for number, path in enumerate(files):
+        if len(entries) == MAX_ENTRIES:
+            refused.append(f"{len(files) - number} files beyond {MAX_ENTRIES} robots are left out.")
+            break
         try:
             entries.append(read_entry(path))
         except Unusable as error:
             refused.append(f"{path.relative_to(folder)} {error}")
-    if len(files) > MAX_ENTRIES:
-        refused.append(f"{len(files) - MAX_ENTRIES} files beyond {MAX_ENTRIES} are left out.")
     if not entries:
         why = f" {refused[0]}" if refused else ""
         raise BotschoolError(
@@ -80,8 +81,14 @@ def compete(folder: Path, told: Callable[[str], None] = lambda text: None) -> Le
         group = [entry for entry in entries if entry.discipline == discipline]
         if group:
             told(f"{discipline}: {len(group)} robots")
-            league.tables[discipline] = ranked(group, [measure(entry) for entry in group])
-    league.hunters = [entry for entry in entries if entry.discipline == "chase"]
+            if results := _measured(group, measure, refused):
+                league.tables[discipline] = ranked([*results], [*results.values()])
+    hunters = [entry for entry in entries if entry.discipline == "chase"]
+    if more := hunters[MAX_HUNTERS:]:
+        refused.append(f"{len(more)} hunters beyond {MAX_HUNTERS} are left out.")
+    league.hunters = [
+        *_measured(hunters[:MAX_HUNTERS], lambda one: everybody([one])[0, 0], refused)
+    ]
     if league.hunters:
         told(f"chases: {len(league.hunters)} pairs")
         league.chases = everybody(league.hunters)
@@ -89,6 +96,34 @@ def compete(folder: Path, told: Callable[[str], None] = lambda text: None) -> Le
         league.tables["predator"] = ranked(league.hunters, predators)
         league.tables["prey"] = ranked(league.hunters, prey)
     return league
+
+
+def in_turn(folder: Path) -> list[Path]:
+    """Return the files of entries, the first one of each person before the second one of any."""
+    turns: Counter[str] = Counter()
+    ordered = []
+    for path in sorted(folder.rglob("*.robot*.npz")):  # browsers number copies: x.robot-1.npz
+        inner = path.relative_to(folder)
+        if ".git" not in path.parts:
+            turns[inner.parts[0]] += 1
+            ordered.append((turns[inner.parts[0]], path))
+    return [path for _, path in sorted(ordered)]
+
+
+def _measured(
+    entries: list[Entry], measure: Callable[[Entry], float], refused: list[str]
+) -> dict[Entry, float]:
+    """Return the results of the entries that can play; tell of the others in `refused`."""
+    found = {}
+    for entry in entries:
+        try:
+            result = measure(entry)
+            if not np.isfinite(result):
+                raise BotschoolError(f"its result is {result}")
+            found[entry] = result
+        except Exception as error:  # one robot must not stop the others
+            refused.append(f"{entry.file} cannot play: {error}")
+    return found
 
 
 def ranked(entries: list[Entry], results: list[float]) -> list[Ranked]:

@@ -72,7 +72,7 @@ def write_page(league: League, path: Path, folder: Path, title: str) -> None:
         f'content="width=device-width"><title>{escape(title)}</title><style>{_STYLE}</style>'
         f"</head><body>{''.join(body)}</body></html>\n"
     )
-    save_bytes(path, page.encode())
+    save_bytes(path, page.encode("utf-8", "replace"))
 
 
 def _table(places: Sequence[Ranked]) -> str:

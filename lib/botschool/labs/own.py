@@ -7,7 +7,6 @@ candidates must then get this fitness, in generations drawn at random.
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
 from typing import Any
 
@@ -17,9 +16,10 @@ from botschool.evolution.algorithms.own import POPSIZE
 from botschool.evolution.evaluate import Evaluator, mean
 from botschool.evolution.record import RunFiles
 from botschool.grading.declare.checks import Wrong
+from botschool.grading.run.confined import MachineFault
 from botschool.grading.run.student import Student
 from botschool.labs.evolving import evaluator_of
-from botschool.labs.saved import MAX_BYTES, SavedRun
+from botschool.labs.saved import MAX_BYTES, SavedRun, member
 from botschool.sandbox.inside import read_inside
 from botschool.wrappers import keywords
 
@@ -38,9 +38,8 @@ def told_fitness(run: SavedRun, folder: Path) -> np.ndarray | None:
         content = read_inside(file.parent, file.name, MAX_BYTES)
         if len(content) > MAX_BYTES:
             return None
-        with np.load(io.BytesIO(content), allow_pickle=False) as saved:
-            told = np.asarray(saved["algorithm.told"])
-    except Exception:  # a damaged file can fail in any way
+        told = member(content, "algorithm.told", MAX_BYTES)
+    except (OSError, ValueError, KeyError):
         return None
     good = told.dtype == np.float64 and told.ndim == 1 and np.isfinite(told).all()
     return told if good else None
@@ -79,7 +78,9 @@ def replayed(run: SavedRun, folder: Path, student: Student, rng: np.random.Gener
                     return f"{said} in generation {generation}"
     except Wrong as error:
         return str(error)
-    except (KeyError, TypeError, ValueError):
+    except (MachineFault, MemoryError):
+        raise
+    except Exception:  # the submission can forge what its child sends
         return "strategy.py gives no candidates"
     return "" if at == len(told) else "its checkpoint is of another run"
 
