@@ -8,6 +8,7 @@ import hmac
 import os
 import re
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +30,7 @@ from botschool.labs.sheet import MAX_BYTES
 SECONDS = 60
 """Processor seconds that each part of a laboratory may take."""
 MAX_FILE, MAX_ALL = 20 * 2**20, 45 * 2**20
-_TITLE = re.compile(rb"\s*#\s+Laboratory\s+(\d+)\.")
+_TITLE = re.compile(rb"\s*#\s+Laboratory\s+(\d{1,3})\.")
 _NEEDED = re.compile(
     r"\w+\.py|runs/(?:runs\.json|[^/]+/(?:(?:statS|bestgS)\d+\.npy|S\d+G\d+\.npy|checkpointS\d+\.npz))"
 )
@@ -137,7 +138,8 @@ def secret_choice(place: Place, secret: str) -> Callable[[int], bytes]:
     """
     digest = hmac.new(secret.encode(), digestmod=hashlib.sha256)
     for path in sorted(place.runs.rglob("*.npy")):
-        digest.update(hashlib.sha256(path.read_bytes()).digest())
+        if path.is_file():
+            digest.update(hashlib.sha256(path.read_bytes()).digest())
     key, drawn = digest.digest(), 0
 
     def draw(count: int) -> bytes:
@@ -203,7 +205,16 @@ def _grade(number: str, file: Path, tasks: list[str], alone: bool) -> dict[str, 
         problem = str(error).replace(f"{place.folder}/", "")
         return record(nothing, lab) | {"problem": problem}
     draw = secret_choice(place, os.environ.get(VARIABLE) or DEFAULT)
-    return record(Check(place, draw).all(), lab)
+    return record(Check(place, draw).all(), lab) | {"sheet": traces(place)}
+
+
+def traces(place: Place) -> dict[str, Any]:
+    """Return what shows whose sheet and runs these are: the sheet's name, hashes of the robots."""
+    files = [path for path in place.runs.rglob("bestgS*.npy") if path.is_file()]
+    robots = {hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in files}
+    with suppress(BotschoolError):
+        return {"name": place.sheet().text_of("name"), "robots": sorted(robots)}
+    return {"name": "", "robots": sorted(robots)}
 
 
 def main() -> None:

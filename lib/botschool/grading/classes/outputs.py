@@ -15,7 +15,13 @@ from botschool.grading.classes.gradebook import (
     moodle_worksheet,
 )
 from botschool.grading.classes.register import Graded, Register
-from botschool.grading.classes.similar import Program, similar_pairs, similarity_page
+from botschool.grading.classes.similar import (
+    Program,
+    Sheet,
+    doubtful,
+    similar_pairs,
+    similarity_page,
+)
 from botschool.grading.classes.statistics import by_task, statistics_page
 from botschool.grading.classes.tables import read_table, safe_cell
 from botschool.grading.classes.texts import code_of_notebook
@@ -150,4 +156,19 @@ def _similar(
             programs.append(Program(row.name, code))
         if len(programs) > 1:
             found[number] = (len(programs), similar_pairs(programs, skeletons[number]))
-    return similarity_page(found).encode("utf-8", "replace") if found else b""
+    people = [row.name for row in rows]
+    sheets = {lab: told for lab in asked if (told := doubtful(_sheets(rows, lab), people))}
+    page = similarity_page(found, sheets)
+    return page.encode("utf-8", "replace") if found or sheets else b""
+
+
+def _sheets(rows: list[Graded], number: Number) -> list[Sheet]:
+    """Return the sheets of a laboratory; a group's sheet is there once, with all their names."""
+    found: dict[Path, Sheet] = {}
+    for row in rows:
+        for result in row.results:
+            if result["exercise"] == number and (told := result.get("sheet")):
+                file = row.submission.files[number]
+                names = f"{found[file].student}, {row.name}" if file in found else row.name
+                found[file] = Sheet(names, told["name"], frozenset(told["robots"]))
+    return [*found.values()]

@@ -13,9 +13,14 @@ import keyword
 import math
 import tokenize
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from html import escape
+from types import MappingProxyType
+
+from botschool.grading.classes.roster import words
+from botschool.grading.declare.checks import plain
+from botschool.grading.declare.exercise import Number, called
 
 LENGTH = 9
 """Tokens in a sequence to compare."""
@@ -34,6 +39,41 @@ class Program:
 
     student: str
     text: str
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A laboratory's sheet, as it was handed in."""
+
+    student: str
+    name: str
+    """The name that stands in it."""
+    robots: frozenset[str]
+    """Hashes of the robots of its runs."""
+
+
+def doubtful(sheets: Sequence[Sheet], people: Iterable[str]) -> list[str]:
+    """Return a sentence on each sheet of another's name, and on each two that share runs.
+
+    people: the names of all students. A sheet may hold a part of its student's name.
+    """
+    known = {person: set(words(person).split()) for person in people}
+    told = []
+    for sheet in sheets:
+        named, own = set(words(sheet.name).split()), set(words(sheet.student).split())
+        others = [person for person, parts in known.items() if named <= parts]
+        if named and not named <= own and others:
+            told.append(
+                f"{sheet.student} handed in a sheet with the name {plain(sheet.name[:80])}, "
+                f"which is that of {', '.join(others)}."
+            )
+    for first, second in itertools.combinations(sheets, 2):
+        if first.student != second.student and (common := len(first.robots & second.robots)):
+            told.append(
+                f"{first.student} and {second.student} handed in the same runs: {common} of "
+                f"{len(first.robots)} and of {len(second.robots)}."
+            )
+    return told
 
 
 @dataclass(frozen=True)
@@ -139,9 +179,18 @@ h2 { overflow-wrap: anywhere; }
 """
 
 
-def similarity_page(found: dict[int, tuple[int, list[Pair]]]) -> str:
-    """Return a page without scripts; found: exercise -> programs compared, and pairs."""
+def similarity_page(
+    found: dict[int, tuple[int, list[Pair]]],
+    sheets: Mapping[Number, list[str]] = MappingProxyType({}),
+) -> str:
+    """Return a page without scripts.
+
+    found: exercise -> programs compared, and pairs. sheets: laboratory -> sentences of `doubtful`.
+    """
     body = []
+    for number, sentences in sheets.items():
+        items = "".join(f"<li>{escape(sentence)}</li>" for sentence in sentences)
+        body.append(f"<h1>{called(number)}: sheets to look at</h1><ul>{items}</ul>")
     for number, (count, pairs) in found.items():
         body.append(f"<h1>Exercise {number}: {len(pairs)} similar pairs of {count} programs</h1>")
         if pairs:
