@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,6 +14,7 @@ import numpy as np
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.run.student import Student
 from botschool.grading.run.temporary import temporary_folder
+from botschool.sandbox.scratch import MAX_PICTURE, MAX_PICTURE_SIDE
 
 SECONDS = 30
 """Processor seconds for all calls of one file."""
@@ -45,7 +47,7 @@ def measured(student: Student, run: dict[str, Any], names: tuple[str, ...]) -> d
             value = float(np.asarray(answer[name], dtype=float).reshape(()))
         except KeyError:
             raise Wrong(f"measure(run) returns no '{name}': add it to the dict.") from None
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise Wrong(f"measure(run)['{name}'] is not a number.") from None
         if not np.isfinite(value):
             raise Wrong(f"measure(run)['{name}'] is {value}: it must be a finite number.")
@@ -56,13 +58,34 @@ def measured(student: Student, run: dict[str, Any], names: tuple[str, ...]) -> d
 def drawn_figure(student: Student, measurements: dict[str, Any]) -> dict[str, Any]:
     """Return what figure(measurements) shows: axes' names, points, lines, PNG. Raises Wrong."""
     found = student.run(_inspect, measurements, said="figure(measurements)")
-    if not isinstance(found, dict) or not {"labels", "points", "verticals", "png"} <= found.keys():
-        raise Wrong("figure(measurements) must return a matplotlib figure.")
-    points = np.asarray(found["points"], dtype=float).reshape(-1, 2)
-    labels = [(str(x), str(y)) for x, y in found["labels"]]
-    png = np.asarray(found["png"], dtype=np.uint8).tobytes()
-    verticals = np.asarray(found["verticals"], dtype=float).ravel()
-    return {"labels": labels, "points": points, "verticals": verticals, "png": png}
+    try:
+        told: dict[str, Any] = {
+            "labels": [(str(x), str(y)) for x, y in found["labels"]],
+            "points": np.asarray(found["points"], dtype=float).reshape(-1, 2),
+            "verticals": np.asarray(found["verticals"], dtype=float).ravel(),
+            "png": np.asarray(found["png"], dtype=np.uint8).tobytes(),
+        }
+    except Exception:  # the submission can forge what its child sends
+        raise Wrong("figure(measurements) must return a matplotlib figure.") from None
+    check_picture(told["png"])
+    return told
+
+
+def check_picture(content: bytes) -> None:
+    """Raise Wrong unless this is a PNG of bounded size that can be decoded."""
+    from PIL import Image
+
+    if len(content) > MAX_PICTURE:
+        raise Wrong(f"the picture has more than {MAX_PICTURE // 1000} kB: draw a smaller figure.")
+    try:
+        with Image.open(io.BytesIO(content), formats=["PNG"]) as picture:
+            side = max(picture.size)
+            if side <= MAX_PICTURE_SIDE:
+                picture.load()
+    except Exception:  # a damaged picture can fail in any way
+        raise Wrong("the picture is no PNG: return matplotlib's own figure.") from None
+    if side > MAX_PICTURE_SIDE:
+        raise Wrong(f"the picture has {side} pixels on a side: at most {MAX_PICTURE_SIDE} count.")
 
 
 def _inspect(student: Any, measurements: dict[str, Any]) -> dict[str, Any]:

@@ -14,8 +14,8 @@ import numpy as np
 from botschool.errors import BotschoolError
 from botschool.labs.declare import Lab
 from botschool.labs.learning import LEARN, own_functions
-from botschool.labs.saved import MAX_BYTES, SavedRun
-from botschool.labs.sheet import Sheet, base_seed, seeds_of
+from botschool.labs.saved import SavedRun
+from botschool.labs.sheet import MAX_BYTES, Sheet, base_seed, seeds_of
 from botschool.output import save_bytes
 from botschool.sandbox.inside import read_inside
 
@@ -83,9 +83,9 @@ def _claim(lab: Lab, sheet: Sheet, folder: Path) -> None:
 def changed(lab: Lab, sheet: Sheet, folder: Path) -> str:
     """Return a sentence if the runs belong to another prediction, name or course; else ""."""
     try:
-        about = json.loads(read_inside(folder, ABOUT, MAX_BYTES))
+        about = json.loads(read_inside(folder, ABOUT, 10 * MAX_BYTES))
         seed, prediction = int(about["seed"]), str(about["prediction"])
-    except (OSError, ValueError, KeyError, TypeError):
+    except Exception:  # a damaged file can fail in any way
         return ""
     if seed == base_seed(sheet, lab):
         return ""

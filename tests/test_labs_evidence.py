@@ -1,0 +1,257 @@
+"""Evidence in laboratories: invented numbers, pictures that are none, other people's runs."""
+
+import csv
+import io
+import shutil
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from botschool.grading.classes.similar import Sheet as Handed
+from botschool.grading.classes.similar import doubtful
+from botschool.grading.declare.checks import Wrong
+from botschool.grading.declare.trust import trust
+from botschool.labs.check import Check
+from botschool.labs.classes import WantedSheet, secret_choice, traces
+from botschool.labs.confined import check_picture, drawn_figure, student_file
+from botschool.labs.declare import load_lab
+from botschool.labs.own import told_fitness
+from botschool.labs.runs import changed
+from botschool.labs.saved import SavedRun, numbers
+from botschool.labs.sheet import Sheet, seeds_of
+from lab_cheats import FULL
+from lab_students import copied, honest, predicted, small
+from odd_arrays import HEADERS
+from running import call
+from tiny_course import make_course
+
+
+@pytest.fixture(scope="module")
+def ada(tmp_path_factory):
+    return honest(small(3), tmp_path_factory.mktemp("ada"))
+
+
+@pytest.fixture
+def place(ada, tmp_path):
+    return copied(ada, tmp_path)
+
+
+LIES = {
+    "by the seed": "run['seed'] in SEEDS",
+    "in one run": "run['seed'] == SEEDS[0]",
+    "by the robot": "run['genotype'].sum() in SUMS",
+    "from the third call on": "calls.append(1) or len(calls) > 2",
+}
+
+
+@pytest.mark.parametrize("lie", LIES)
+def test_numbers_that_are_invented_for_the_students_own_runs_do_not_count(lie, place):
+    seeds = [seed for some in seeds_of(place.sheet(), place.lab).values() for seed in some]
+    sums = [np.load(path).sum() for path in place.runs.rglob("bestgS*.npy")]
+    file = place.folder / "measure.py"
+    text = file.read_text().replace("def measure(run):", "def true(run):")
+    lies = f"SEEDS, SUMS, calls = {seeds}, {[*map(float, sums)]}, []\n\n\ndef measure(run):\n"
+    lies += f"    return true(run) | ({{'fresh': -5.0}} if {LIES[lie]} else {{}})\n"
+    file.write_text(text.replace("\n\nif __name", f"\n\n{lies}\n\nif __name"))
+    parts = Check(place).all().parts
+    assert {p.name: p.points for p in parts} == FULL | {"measurements": 15}
+    assert "measure.py: of your run of seed" in parts[2].messages[0]
+
+
+# --- figures
+def png(width, height, **options):
+    stream = io.BytesIO()
+    Image.new("RGB", (width, height)).save(stream, "png", **options)
+    return stream.getvalue()
+
+
+def other_format(name):
+    stream = io.BytesIO()
+    Image.new("RGB", (9, 9)).save(stream, name)
+    return stream.getvalue()
+
+
+SIDE = png(9, 9)
+PICTURES = {
+    "nothing": (b"", "no PNG"),
+    "svg": (b"<svg xmlns='http://www.w3.org/2000/svg' onload='alert(1)'/>", "no PNG"),
+    "jpeg": (other_format("jpeg"), "no PNG"),
+    "gif": (other_format("gif"), "no PNG"),
+    "a head alone": (SIDE[:33], "no PNG"),
+    "cut": (png(300, 300)[:-60], "no PNG"),
+    "a wrong sum": (SIDE[:-20] + b"\0\0" + SIDE[-18:], "no PNG"),
+    "a side of 5000": (png(5000, 1), "5000 pixels"),
+    "a claim of 2 G": (SIDE[:16] + b"\x7f\xff\xff\xff" + SIDE[20:], "pixels|no PNG"),
+    "55 MB": (SIDE + b"x" * 55_000_000, "more than 600 kB"),
+}
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_a_picture_has_a_bounded_size_and_can_be_decoded(name):
+    content, says = PICTURES[name]
+    with pytest.raises(Wrong, match=says):
+        check_picture(content)
+
+
+def test_a_good_picture_passes():
+    check_picture(png(800, 600))
+
+
+FORGED = """
+class Any:
+    axes, lines, collections = [], [], []
+    def savefig(self, out, **options):
+        out.write(b"x" * 700_000)
+
+def figure(measurements):
+    return Any()"""
+
+
+def test_a_figure_that_is_an_object_of_the_students_is_refused(tmp_path):
+    (tmp_path / "figure.py").write_text(FORGED)
+    with student_file(tmp_path / "figure.py") as file, pytest.raises(Wrong, match="600 kB"):
+        drawn_figure(file, {})
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [5, {}, {"labels": [1], "points": [], "verticals": [], "png": []},
+     {"labels": [], "points": [1], "verticals": [], "png": []},
+     {"labels": [], "points": [], "verticals": ["a"], "png": []},
+     {"labels": [], "points": [], "verticals": [], "png": [10**30]}],
+)  # fmt: skip
+def test_what_a_child_tells_of_its_figure_is_not_trusted(answer):
+    class Forging:
+        def run(self, *arguments, **options):
+            return answer
+
+    with pytest.raises(Wrong, match="must return a matplotlib figure"):
+        drawn_figure(Forging(), {})
+
+
+# --- files of runs
+@pytest.mark.parametrize("name", [n for n in HEADERS if n not in ("other size", "two dimensions")])
+def test_a_file_of_a_run_that_is_damaged_is_no_run(name, tmp_path):
+    (tmp_path / "x.npy").write_bytes(HEADERS[name])
+    assert numbers(tmp_path / "x.npy", 1) is None
+    condition = load_lab(9).conditions[0]
+    (tmp_path / condition.name).mkdir()
+    (tmp_path / condition.name / "checkpointS1.npz").write_bytes(HEADERS[name])
+    assert told_fitness(SavedRun(condition, 1, np.zeros((1, 6)), np.zeros(1)), tmp_path) is None
+
+
+@pytest.mark.parametrize(
+    "about",
+    ["[" * 100_000, '{"seed": Infinity, "prediction": ""}', '{"seed": ' + "1" * 5000 + "}", "5",
+     '{"seed": 1' + "1" * 999 + ', "prediction": []}'],
+)  # fmt: skip
+def test_a_note_beside_the_runs_may_be_damaged(about, tmp_path):
+    (tmp_path / "runs.json").write_text(about)
+    sheet = Sheet("<!-- field: name --> answer: A\n<!-- field: course --> answer: B\n")
+    assert isinstance(changed(load_lab(9), sheet, tmp_path), str)
+
+
+def test_a_check_goes_on_where_runs_are_damaged(tmp_path):
+    place = predicted(small(3), tmp_path)
+    odd = iter(list(HEADERS.values()) * 9)
+    for name, seeds in seeds_of(place.sheet(), place.lab).items():
+        (place.runs / name / "x.npy").mkdir(parents=True)
+        for seed in seeds:
+            for kind in ("stat", "bestg"):
+                (place.runs / name / f"{kind}S{seed}.npy").write_bytes(next(odd))
+    assert Check(place, secret_choice(place, "secret")).all().points == 0
+    assert len(traces(place)["robots"]) > 9
+
+
+def test_an_unforeseen_error_costs_its_part_alone(place, monkeypatch):
+    check = Check(place)
+    monkeypatch.setattr(check, "_figure", lambda: [][1])
+    parts = check.all().parts
+    assert {p.name: p.points for p in parts} == FULL | {"figure": 0}
+    assert "It cannot be checked (IndexError" in parts[3].messages[0]
+    check = Check(place)
+    monkeypatch.setattr(check, "_prove", lambda: {}["x"])
+    found = check.all()
+    assert found.points == 0 and not any(found.runs.values())
+
+
+# --- sheets
+def test_a_title_of_digits_is_no_laboratory(tmp_path):
+    class File:
+        name = "sheet.md"
+
+        def read(self, most):
+            return b"# Laboratory " + b"1" * 5000 + b". X"
+
+    assert not WantedSheet(load_lab(9))._is_ours(File())
+
+
+ANSWERS = {"digits": "1" * 5000, "digits and a letter": "1" * 5000 + "x1", "points": "1." * 3000,
+           "signs": "-" * 5000, "exponents": "1e9" * 2000, "1e999": "1e999"}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ANSWERS)
+def test_an_odd_answer_costs_its_field_alone(name, tmp_path):
+    place = predicted(small(3), tmp_path)
+    text = place.sheet().text
+    text = text.replace("field: lost --> answer:", f"field: lost --> answer: {ANSWERS[name]}")
+    found, missing = Sheet(text).values(place.lab.predictions + place.lab.fields)
+    assert {field.id for field in place.lab.predictions} == found.keys()
+    assert all(len(sentence) < 200 for sentence in missing)
+
+
+def test_a_comment_that_does_not_end_stays_in_the_prediction():
+    """As before: seeds follow from it."""
+    text = "## Prediction\na <!-- x\n --> b <!-- <!-- y --> c <!-- z <!---> d --> e <!-- f\n"
+    assert Sheet(text).prediction == "a b c d --> e <!-- f"
+
+
+# --- other people
+def test_other_peoples_runs_and_names_are_told():
+    def handed(student, name, *robots):
+        return Handed(student, name, frozenset(robots))
+
+    people = ["Ada Lovelace", "Bo Diddley", "Cy Young", "ada-7"]
+    assert (
+        doubtful([handed("Ada Lovelace", "Ada", "a"), handed("Bo Diddley", "B.", "b")], people)
+        == []
+    )
+    assert doubtful([handed("ada-7", "ADA"), handed("Cy Young", "")], people) == []
+    (told,) = doubtful([handed("Bo Diddley", "lovelace, ada")], people)
+    assert told == (
+        "Bo Diddley handed in a sheet with the name lovelace, ada, which is that of Ada Lovelace."
+    )
+    (told,) = doubtful([handed("Ada Lovelace", "", "a", "b"), handed("Cy Young", "", "b")], people)
+    assert told == "Ada Lovelace and Cy Young handed in the same runs: 1 of 2 and of 1."
+
+
+def test_a_class_tells_the_teacher_and_not_the_student(ada, tmp_path, monkeypatch):
+    monkeypatch.setenv("BOTSCHOOL_COURSE", str(make_course(tmp_path / "course")))
+    trust(tmp_path / "course")
+    folder = tmp_path / "class"
+
+    def page_of(name):
+        return (tmp_path / "out" / "feedback" / f"{name}.html").read_text()
+
+    for name in ("Ada", "Bo", "Cy"):
+        shutil.copytree(
+            ada.folder, folder / name / "lab03", ignore=shutil.ignore_patterns("check*")
+        )
+    sheet = folder / "Cy" / "lab03" / "sheet.md"
+    sheet.write_text(sheet.read_text().replace("answer: Ada", "answer: Cy"))
+    shutil.rmtree(folder / "Cy" / "lab03" / "runs")
+    for name, text in (("Dee", "# Laboratory " + "1" * 5000), ("Eve", "# Laboratory 3. X\n")):
+        (folder / name).mkdir()
+        (folder / name / "sheet.md").write_text(text + "<!-- field: name --> answer: Eve")
+    code, _, errors = call("grade-all", str(folder), "-e", "lab3", "-o", str(tmp_path / "out"))
+    assert code == 0, errors
+    with open(tmp_path / "out" / "grades.csv", encoding="utf-8-sig", newline="") as file:
+        rows = {row["student"]: row for row in csv.DictReader(file)}
+    assert rows["Dee"]["notes"] == "Laboratory 3: There is no sheet.md of laboratory 3."
+    assert rows["Eve"]["laboratory 3"] == "0" and "field course is not" in page_of("Eve")
+    page = (tmp_path / "out" / "similar.html").read_text()
+    assert "Ada and Bo handed in the same runs: 30 of 30 and of 30." in page
+    assert "Bo handed in a sheet with the name Ada, which is that of Ada." in page
+    assert "Cy" not in page
+    assert "same runs" not in page_of("Ada") + page_of("Bo")
