@@ -5,12 +5,14 @@ import contextlib
 import csv
 import ctypes
 import json
+import os
 import platform
 import re
 import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from html.parser import HTMLParser
 from io import StringIO
 
@@ -29,11 +31,11 @@ from botschool.grading.declare.secret import grading_secret
 from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import grade
 from botschool.grading.report import showing
-from botschool.grading.report.progress import table
+from botschool.grading.report.progress import recall, remember, table
 from botschool.grading.report.screen import Screen, Watched, watch
 from botschool.grading.report.showing import show
 from botschool.sandbox import seccomp
-from exports import notebook, zipped
+from exports import notebook, written, zipped
 from running import call, environment_of_command, finish, one_sentence, start
 from tiny_course import FILE, FOLDER, SOLUTION, make_course, submit
 
@@ -159,12 +161,65 @@ def test_a_long_problem_leaves_the_table_readable():
     assert " ".join(line[53:].strip() for line in rest) == problem
 
 
+DAMAGED = ("1e400", "NaN", "-1", "41", "9" * 5000, "[3]", "true", "null", '"x"')
+"""Points that no grading has stored."""
+
+
+def entry(points):
+    return f'{{"3.2": {{"points": {points}, "max_points": 40, "digest": "x"}}}}'
+
+
+@pytest.mark.parametrize("points", DAMAGED, ids=lambda text: text[:9])
+def test_points_that_no_grading_has_stored_do_not_count(course, points):
+    exercise = load_exercise(3, course)
+    for text, known in ((entry(points), False), (entry("39"), True)):
+        written(course / ".botschool" / "last", {"ex03.json": text.encode()})
+        assert bool(recall(course, exercise)) == known
+
+
+def test_results_of_many_commands_at_once_are_all_kept(course):
+    """Read, change, write: without a lock, two thirds of them were lost."""
+    (course / ".botschool").mkdir()
+    start, ours = os.pipe()
+    children = []
+    for number in range(30):
+        children.append(os.fork())
+        if not children[-1]:
+            os.close(ours)
+            os.read(start, 1)  # until all are there
+            remember(course, 3, [(f"3.{number}", 1, 1)], "x")
+            os._exit(0)
+    os.close(ours)
+    assert {os.waitpid(child, 0)[1] for child in children} == {0}
+    assert len(json.loads((course / ".botschool" / "last" / "ex03.json").read_text())) == 30
+
+
+def test_commands_at_once_agree_on_one_secret(tmp_path, monkeypatch):
+    monkeypatch.delenv("BOTSCHOOL_GRADING_SEED", raising=False)
+    with ThreadPoolExecutor(8) as pool:
+        found = set(pool.map(lambda _: grading_secret(tmp_path)[0], range(40)))
+    assert len(found) == 1
+
+
+@pytest.mark.parametrize("damage", [b"5", b"null", b"{}", b"[" * 100_000, b"", b"\xff", "half"])
+def test_a_damaged_cache_is_graded_again(course, tmp_path, damage):
+    job = batch.Job(3, submit(tmp_path / "ada", SOLUTION), ("3.2",))
+    right = batch.Grades(course).of([job], 1)[job]
+    assert right["points"] == 40
+    (stored,) = (course / ".botschool" / "grades").iterdir()
+    content = stored.read_bytes()
+    stored.write_bytes(
+        content.replace(b'"points": 40', b'"points": 4 ') if damage == "half" else damage
+    )
+    assert batch.Grades(course).of([job], 1)[job] == right and stored.read_bytes() == content
+
+
 def test_progress_without_a_file_or_with_a_damaged_store(course):
     file = course / "exercises" / FOLDER / FILE
     file.write_text(SOLUTION)
     call("grade", "3")
     (stored,) = (course / ".botschool" / "last").iterdir()
-    for text in ("", "[]", '{"3.1": {"points": "x"}}'):
+    for text in ("", "[]", "[" * 100_000, "5", "null", '"3.1"', *map(entry, DAMAGED)):
         stored.write_text(text)
         assert "not graded yet" in rows_of_progress()[0]["3"]
     file.unlink()

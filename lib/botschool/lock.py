@@ -1,4 +1,4 @@
-"""Lock output folders, so that no two commands write the same run."""
+"""Lock output folders and stored data, so that no two commands write the same run or file."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import errno
 import os
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from botschool.errors import BotschoolError
@@ -19,6 +19,21 @@ except ImportError:  # Windows
 
 NAME = ".botschool.lock"
 TAKEN = (errno.EACCES, errno.EAGAIN)
+
+
+@contextmanager
+def alone(folder: Path) -> Iterator[None]:
+    """Read, change and write a file of a folder in the block while no other command does so.
+
+    Wait for the others. Without a lock (a missing folder, Windows, some file systems) go on.
+    """
+    with ExitStack() as stack:
+        with suppress(OSError):
+            opened = os.open(folder, os.O_RDONLY)
+            stack.callback(os.close, opened)
+            if fcntl is not None:
+                fcntl.flock(opened, fcntl.LOCK_EX)
+        yield
 
 
 @contextmanager

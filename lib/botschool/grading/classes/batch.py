@@ -9,6 +9,7 @@ from __future__ import annotations
 import base64
 import contextlib
 import functools
+import hashlib
 import json
 import os
 import subprocess
@@ -149,12 +150,15 @@ class Grades:
             return self._nothing(job, str(error), not isinstance(error, Unread))
         except OSError as error:
             return self._nothing(job, f"Cannot read a file ({error.strerror}).")
+        except Exception as error:
+            return self._nothing(job, f"Cannot read the files ({type(error).__name__}: {error}).")
         place = self._cache / f"{key}.json"
         if not self._fresh:
-            with contextlib.suppress(OSError, ValueError):
-                result = json.loads(place.read_bytes())
-                place.touch()
-                return result
+            with contextlib.suppress(OSError):
+                digest, _, content = place.read_bytes().partition(b"\n")
+                if digest == _digest(content):
+                    place.touch()
+                    return json.loads(content)
         result = self._grade(job, alone)
         if result is None:
             return None
@@ -162,7 +166,8 @@ class Grades:
             with contextlib.suppress(OSError, BotschoolError):
                 make_state(self._root)
                 self._cache.mkdir(exist_ok=True)
-                save_bytes(place, json.dumps(result).encode())
+                content = json.dumps(result).encode()
+                save_bytes(place, _digest(content) + b"\n" + content)
         return result
 
     def _grade(self, job: Job, alone: bool) -> dict[str, Any] | None:
@@ -206,7 +211,9 @@ class Grades:
             finally:
                 self._running.discard(process)
             if process.returncode == 0:
-                return json.loads(out)
+                with contextlib.suppress(ValueError, TypeError, RecursionError):
+                    return self._nothing(job, "") | {"graded": True} | json.loads(out)
+                return self._nothing(job, "The grader's result is damaged.")
             if not alone and (process.returncode == MACHINE_FAULT or process.returncode < 0):
                 return None
             lines = errors.decode(errors="replace").strip().splitlines()
@@ -249,6 +256,11 @@ class Grades:
         digest.update(f"{self._secret}\n{_versions(self._root, job.number)}\n".encode())
         digest.update(f"{job.file.name} {job.tasks}".encode(errors="surrogateescape"))
         return digest.hexdigest()
+
+
+def _digest(content: bytes) -> bytes:
+    """Return the first line of a file in the cache, by which a damaged one is graded again."""
+    return hashlib.sha256(content).hexdigest().encode()
 
 
 def to_record(result: Result) -> dict[str, Any]:

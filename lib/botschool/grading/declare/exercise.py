@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import hashlib
 import importlib.util
+import json
 import os
 import re
 import sys
@@ -21,9 +23,12 @@ from botschool.grading.declare.references import pruned
 from botschool.grading.declare.secret import DEFAULT, VARIABLE, grading_secret
 from botschool.grading.declare.trust import check_trusted
 from botschool.paths import course_root
+from botschool.sandbox.inside import read_inside
 
 STATE = ".botschool"
 """A folder in the course in which the commands store data."""
+MAX_STORED = 2**20
+"""Bytes of a file in it that is read again."""
 POINTS = 100
 """Points of every exercise."""
 ABSENT = "botschool.grading.run.absent"
@@ -347,11 +352,19 @@ def make_state(root: Path) -> Path:
     """Make and return the folder in which the commands store data. Raises OSError if that fails."""
     folder = root / STATE
     if not folder.is_dir():
-        folder.mkdir()
+        folder.mkdir(exist_ok=True)
         (folder / ".gitignore").write_text("*\n")
     if not os.access(folder, os.W_OK):
         raise PermissionError(f"no permission to write in {folder}")
     return folder
+
+
+def stored(place: Path) -> dict[str, Any]:
+    """Return the stored data of a command; a missing or damaged file counts as empty."""
+    with contextlib.suppress(OSError, ValueError, RecursionError):
+        found = json.loads(read_inside(place.parent, place.name, MAX_STORED))
+        return found if isinstance(found, dict) else {}
+    return {}
 
 
 def secret_for_others(root: Path) -> tuple[str, str]:

@@ -6,6 +6,8 @@ import os
 import secrets
 from pathlib import Path
 
+from botschool.lock import alone
+
 VARIABLE = "BOTSCHOOL_GRADING_SEED"
 """Environment variable with the instructor's own secret."""
 DEFAULT = "botschool"
@@ -23,7 +25,11 @@ def grading_secret(state: Path) -> tuple[str, str]:
     given = os.environ.get(VARIABLE)
     if given:
         return given, ""
-    place = state / FILE
+    with alone(state):
+        return _kept_or_made(state / FILE)
+
+
+def _kept_or_made(place: Path) -> tuple[str, str]:
     try:
         kept = place.read_text(encoding="utf-8").strip()
         if kept:

@@ -14,6 +14,7 @@ from pathlib import Path
 from shlex import quote
 
 from botschool.errors import BotschoolError
+from botschool.lock import alone
 from botschool.output import save_bytes
 from botschool.paths import material
 
@@ -41,10 +42,11 @@ def check_trusted(root: Path) -> None:
 def trust(root: Path) -> None:
     """Remember that the user trusts a course. Raises BotschoolError."""
     place = _place()
-    known = sorted({*_trusted(), str(root.resolve())})
     try:
         place.parent.mkdir(parents=True, exist_ok=True)
-        save_bytes(place, json.dumps(known, indent=1).encode())
+        with alone(place.parent):
+            known = sorted({*_trusted(), str(root.resolve())})
+            save_bytes(place, json.dumps(known, indent=1).encode())
     except (OSError, BotschoolError):
         raise BotschoolError(
             f"Cannot write {place}: type 'export {_way_out(root.resolve())}' in each terminal "
@@ -66,7 +68,7 @@ def _trusted() -> list[str]:
     """Return the remembered courses; a damaged file counts as empty."""
     try:
         found = json.loads(_place().read_bytes())
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return []
     return [each for each in found if isinstance(each, str)] if isinstance(found, list) else []
 

@@ -7,7 +7,8 @@ import re
 from pathlib import Path
 
 from botschool.errors import BotschoolError
-from botschool.grading.declare.exercise import folder_of, make_state
+from botschool.grading.declare.exercise import folder_of, make_state, stored
+from botschool.lock import alone
 from botschool.output import save_bytes
 
 FILE = "HINTS.md"
@@ -52,11 +53,12 @@ def next_hints(task: str, root: Path) -> tuple[list[str], int, bool]:
     if not hints:
         raise BotschoolError(f"Task {task} has no hints in {path}.")
     place = _memory(root)
-    shown = _read(place)
-    before = shown.get(task, 0)
-    now = min(before + 1, len(hints))
-    shown[task] = now
-    save_bytes(place, json.dumps(shown, indent=1, sort_keys=True).encode())
+    with alone(place.parent):
+        shown = {key: many for key, many in stored(place).items() if type(many) is int and many > 0}
+        before = shown.get(task, 0)
+        now = min(before + 1, len(hints))
+        shown[task] = now
+        save_bytes(place, json.dumps(shown, indent=1, sort_keys=True).encode())
     return hints[:now], len(hints), now > before
 
 
@@ -70,12 +72,3 @@ def _memory(root: Path) -> Path:
         folder = Path(typer.get_app_dir("botschool"))
         folder.mkdir(parents=True, exist_ok=True)
         return folder / "hints.json"
-
-
-def _read(place: Path) -> dict[str, int]:
-    try:
-        shown = json.loads(place.read_text())
-    except (OSError, ValueError):
-        return {}
-    items = shown.items() if isinstance(shown, dict) else []
-    return {task: many for task, many in items if isinstance(many, int) and many > 0}

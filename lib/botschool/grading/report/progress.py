@@ -23,10 +23,12 @@ from botschool.grading.declare.exercise import (
     folder_of,
     load_exercise,
     make_state,
+    stored,
     submission_file,
 )
 from botschool.grading.packed import PACKED, unpack_answers
 from botschool.grading.run.confined import submission_files
+from botschool.lock import alone
 from botschool.output import save_bytes
 
 _BAR = 12
@@ -160,14 +162,13 @@ def remember(root: Path, number: int, points: Iterable[tuple[str, int, int]], gr
 
     Tasks that were not graded now keep their points. Errors in storing are ignored.
     """
-    tasks = _read(root, number)
-    for task, reached, most in points:
-        tasks[task] = {"points": reached, "max_points": most, "digest": graded}
+    new = {task: {"points": p, "max_points": most, "digest": graded} for task, p, most in points}
     with contextlib.suppress(OSError, BotschoolError):
         place = _place(root, number)
         make_state(root)
         place.parent.mkdir(exist_ok=True)
-        save_bytes(place, json.dumps(tasks, indent=1).encode())
+        with alone(place.parent):
+            save_bytes(place, json.dumps(_read(root, number) | new, indent=1).encode())
 
 
 def recall(root: Path, exercise: Exercise) -> tuple[list[dict[str, Any]], set[str]] | None:
@@ -200,18 +201,15 @@ def _place(root: Path, number: int) -> Path:
 
 def _read(root: Path, number: int) -> dict[str, dict[str, Any]]:
     """Return task -> points, max_points, digest; damaged entries are left out."""
-    try:
-        found = json.loads(_place(root, number).read_bytes())
-        return {
-            str(task): {
-                "points": int(one["points"]),
-                "max_points": int(one["max_points"]),
-                "digest": str(one["digest"]),
-            }
-            for task, one in found.items()
-        }
-    except (OSError, ValueError, LookupError, TypeError, AttributeError):
-        return {}
+    found = stored(_place(root, number))
+    return {task: one for task, one in found.items() if isinstance(one, dict) and _is_whole(one)}
+
+
+def _is_whole(one: dict[str, Any]) -> bool:
+    """Return whether points, their maximum and the digest are what `remember` writes."""
+    points, most = one.get("points"), one.get("max_points")
+    whole = type(points) is int and type(most) is int and isinstance(one.get("digest"), str)
+    return whole and 0 <= points <= most
 
 
 def answers(number: int, root: Path) -> str:
