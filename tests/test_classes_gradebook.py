@@ -114,6 +114,57 @@ def test_people_are_matched_however_their_platform_names_them(tmp_path):
     assert id_of(Person("Eve", "x")) is None
 
 
+TWICE = {
+    "equal rows": ("name,id,email", "Ada Byron,7,a@x.org", "Ada Byron,7,a@x.org"),
+    "a name alone": ("name", "Ada Byron", "Ada Byron"),
+    "an id": ("name,id,email", "Ada Byron,7,a@x.org", '"Byron, Ada",7,ada@x.org'),
+    "an email in capitals": ("name,id,email", "Ada Byron,7,A@x.org", "Ada King Byron,,a@x.org"),
+    "a user name": ("name,username,section", "Ada Byron,ada,1", "Ada Byron,ada,2"),
+    "one by one": ("name,id,email,user", "Ada Byron,7,,", "Ada Byron,7,a@x.org,", "Ada,,a@x.org,a"),
+    "Moodle's number": ("Identifier,Name,Grade", "Participant 7,Ada Byron,", "Participant 7,A,"),
+    "Canvas's number": ("Student,ID,Section,Ex (7)", "Ada Byron,400,A,", "Ada Byron,400,B,"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", TWICE)
+def test_a_student_who_stands_twice_is_one(tmp_path, kind):
+    head, *rows = TWICE[kind]
+    found = read_roster(roster(tmp_path, "\n".join([head, "", *rows]) + "\n"))
+    (ada,) = found.students
+    assert ada.rows == list(range(len(rows))) and found.match(Person("Ada Byron", "x")) == ada
+    assert f"names Ada Byron {len(rows)} times (rows 2, 3" in found.notes[0]
+    for key in sorted(ada.keys()):
+        assert found.find(key) == ada
+    if found.kind == "moodle":
+        table = moodle_worksheet(found, {ada: (80.0, "")}, 100).decode()
+        assert table.count("80.00") == 2
+    if found.kind == "canvas":
+        assert canvas_gradebook(found, {ada: (80.0, "")}, 100, "").decode().count(",80") == 2
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        "Ada Byron,7,a@x.org\nAda Byron,8,b@x.org\n",
+        "Ada Byron,-,a@x.org\nBob Gauss,-,b@x.org\n",
+        "Ada Byron,7,info@x.org\nBob Gauss,8,info@x.org\n",
+    ],
+)
+def test_two_students_are_two(tmp_path, rows):
+    found = read_roster(roster(tmp_path, f"name,id,email\n{rows}"))
+    assert len(found.students) == 2 and not found.notes
+
+
+def test_a_class_list_that_names_somebody_twice_loses_no_grade(course, tmp_path):
+    download = written(tmp_path / "class", {f"7/{FILE}": SOLUTION.encode()})
+    people = roster(tmp_path, "name,id,email\nAda Byron,7,a@x.org\nAda Byron,7,a@x.org\n")
+    code, out, errors = call(
+        "grade-all", download, "-e", "3.2", "-o", tmp_path / "out", "--roster", people
+    )
+    assert (code, errors) == (0, "") and "students.csv names Ada Byron 2 times" in out
+    assert [row["total"] for row in rows_of(tmp_path / "out" / "grades.csv")] == ["40"]
+
+
 # --- deadlines
 def settings(tmp_path, text):
     path = tmp_path / "class.yaml"

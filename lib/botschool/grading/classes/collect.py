@@ -105,7 +105,9 @@ def grade_all(
                 exercise.require(map(exercise.find, asked[number]) if asked[number] else None)
         register = Register(submissions, settings)
         rows = _grade(register, output, asked, grades, workers, start, report)
-        found = Class(rows, register, export.nobodys, export.notes)
+        tables = {id(each): each for each in (settings.roster, settings.gradebook) if each}
+        notes = [*export.notes, *(note for each in tables.values() for note in each.notes)]
+        found = Class(rows, register, export.nobodys, notes)
         skeletons = {one.number: one.skeleton for one in wanted}
         found.written = write_outputs(output, rows, register, asked, skeletons)
     return found

@@ -35,13 +35,13 @@ def moodle_worksheet(
     if grade is None:
         raise BotschoolError(f"{table.path} has no column 'Grade': download the worksheet again.")
     for student, (total, said) in points.items():
-        row = table.rows[student.row]
-        row += [""] * (len(table.head) - len(row))
-        most = re.fullmatch(r"\s*(\d+(?:[.,]\d+)?)\s*", table.get(row, "maximumgrade"))
-        scale = float(most[1].replace(",", ".")) / maximum if most and maximum else 1.0
-        row[grade] = f"{total * scale:.2f}"
-        if comment is not None and said:
-            row[comment] = safe_cell(said)
+        for row in [table.rows[number] for number in student.rows]:
+            row += [""] * (len(table.head) - len(row))
+            most = re.fullmatch(r"\s*(\d+(?:[.,]\d+)?)\s*", table.get(row, "maximumgrade"))
+            scale = float(most[1].replace(",", ".")) / maximum if most and maximum else 1.0
+            row[grade] = f"{total * scale:.2f}"
+            if comment is not None and said:
+                row[comment] = safe_cell(said)
     return table.text()
 
 
@@ -69,7 +69,7 @@ def canvas_gradebook(
     made = deepcopy(table)
     made.head = [table.head[i] for i in (*fixed, index)]
     made.rows = []
-    by_row = {student.row: total for student, (total, _) in points.items()}
+    by_row = {row: total for student, (total, _) in points.items() for row in student.rows}
     for number, row in enumerate(table.rows):
         row = row + [""] * (len(table.head) - len(row))
         new = row[index] if number not in by_row else str(tidy(by_row[number] * scale))
@@ -102,7 +102,13 @@ def moodle_feedback(pages: Sequence[tuple[Person, bytes]]) -> bytes:
 
 def canvas_feedback(texts: Sequence[tuple[Person, str]]) -> bytes:
     """Return Canvas's zip file of feedback: texts under the names of the submissions."""
-    return _zip({name: text.encode() for person, text in texts for name in person.upload[:1]})
+    return _zip(
+        {
+            name: text.encode("utf-8", "replace")
+            for person, text in texts
+            for name in person.upload[:1]
+        }
+    )
 
 
 def feedback_text(student: str, results: list[dict[str, Any]], notes: Sequence[str]) -> str:

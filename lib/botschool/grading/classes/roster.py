@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from botschool.errors import BotschoolError
@@ -26,11 +26,40 @@ class Student:
     canvas: str = ""
     """Canvas's number."""
     row: int = 0
+    again: tuple[Student, ...] = ()
+    """Further rows of the same student."""
+
+    @property
+    def rows(self) -> list[int]:
+        return [self.row, *(each.row for each in self.again)]
 
     def keys(self) -> set[str]:
         """Return the words that name only this student, in lower case."""
         given = (self.id, self.mail, self.user, self.mail.partition("@")[0])
-        return {key.casefold() for key in given if key}
+        own = {key.casefold() for key in given if key}
+        return own.union(*(each.keys() for each in self.again))
+
+    def names(self) -> set[str]:
+        """Return the words of the name, as each row has it."""
+        return {words(each.name) for each in (self, *self.again)}
+
+    def is_same(self, other: Student) -> bool:
+        """Return whether two rows are of one student: they share a number or a key, and the name.
+
+        Names need not be equal, but one must hold the words of the other. Tables put the same dash
+        into many cells, so a key alone tells nothing.
+        """
+        if any(getattr(self, n) and getattr(self, n) == getattr(other, n) for n in _NUMBERS):
+            return True
+        mine, others = set(words(self.name).split()), set(words(other.name).split())
+        shared = any(
+            getattr(self, key) and getattr(self, key).casefold() == getattr(other, key).casefold()
+            for key in _KEYS
+        )
+        return shared and (mine <= others or others <= mine)
+
+
+_KEYS, _NUMBERS = ("id", "mail", "user"), ("participant", "canvas")
 
 
 @dataclass
@@ -41,13 +70,15 @@ class Roster:
     students: list[Student]
     kind: str
     """moodle (a grading worksheet), canvas (a gradebook) or plain."""
+    notes: list[str] = field(default_factory=list)
+    """Sentences on students who stand there more than once."""
     _by_key: dict[str, list[Student]] = field(default_factory=dict)
 
     def find(self, key: str) -> Student | None:
         """Return the only student with this id, mail, user name or name; else None."""
         if not self._by_key:
             for student in self.students:
-                for each in student.keys() | {words(student.name)}:
+                for each in student.keys() | student.names():
                     self._by_key.setdefault(each, []).append(student)
         for each in (key.strip().casefold(), words(key)):
             found = self._by_key.get(each, []) if each else []
@@ -155,4 +186,34 @@ def read_roster(path: Path) -> Roster:
             f"{path} names no students: it needs a column 'name' (or 'first_name' and "
             f"'last_name'), 'id' or 'email'; its columns are {heads}."
         )
-    return Roster(table, students, kind)
+    students, notes = _merged(students, table)
+    return Roster(table, students, kind, notes)
+
+
+def _merged(students: list[Student], table: Table) -> tuple[list[Student], list[str]]:
+    """Return each student once, with all rows, and a sentence on each who has several."""
+    found: list[Student] = []
+    places: dict[tuple, list[int]] = {}
+    for one in students:
+        fields = {key: getattr(one, key) for key in (*_KEYS, *_NUMBERS)}
+        keys: list[tuple] = [(key, value.casefold()) for key, value in fields.items() if value]
+        keys.append(tuple(table.rows[one.row]))  # two equal rows, perhaps of a name alone
+        for at in [at for key in keys for at in places.get(key, [])]:
+            known = found[at]
+            equal = table.rows[one.row] == table.rows[known.row]
+            if equal or any(row.is_same(one) for row in (known, *known.again)):
+                filled = {key: getattr(known, key) or value for key, value in fields.items()}
+                found[at] = replace(known, again=(*known.again, one), **filled)
+                break
+        else:
+            at = len(found)
+            found.append(one)
+        for key in keys:
+            places.setdefault(key, []).append(at)
+    notes = [
+        f"{table.path.name} names {plain(each.name)} {len(each.rows)} times (rows "
+        f"{', '.join(str(row + 2) for row in each.rows)}): taken for one student."
+        for each in found
+        if each.again
+    ]
+    return found, notes
