@@ -16,6 +16,7 @@ from botschool.grading.classes.policy import LateRule, read_policy
 from botschool.grading.classes.roster import read_roster
 from botschool.grading.classes.similar import Program, similar_pairs, similarity_page
 from botschool.grading.classes.statistics import by_task, hardest, statistics_page
+from botschool.grading.classes.tables import safe_cell
 from botschool.grading.copies.skeleton import skeleton
 from botschool.grading.declare.trust import trust
 from botschool.labs.classes import secret_choice
@@ -163,6 +164,29 @@ def test_a_class_list_that_names_somebody_twice_loses_no_grade(course, tmp_path)
     )
     assert (code, errors) == (0, "") and "students.csv names Ada Byron 2 times" in out
     assert [row["total"] for row in rows_of(tmp_path / "out" / "grades.csv")] == ["40"]
+
+
+FORMULAS = (
+    "=1+2", "+1", "-1", "@x", "\t=1", "\n=1", " =1", '"=1', "a;=1", "a; =1", 'a;"=1', "a,=1",
+    "a\t;\t@x", "a;;=1", "a;b;-1", "\x0b=1", "\uff1d1", "\uff0b1", "\uff0d1", "\uff20x", "\ufe661",
+    "\u22121", "a;\uff1d1", "\ufeff=1", "\u200b=1",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("delimiter", [",", ";", "\t"])
+@pytest.mark.parametrize("text", FORMULAS, ids=ascii)
+def test_no_cell_is_a_formula_however_a_table_is_split(text, delimiter):
+    stream = io.StringIO()
+    csv.writer(stream).writerow(["x, y", safe_cell(text), safe_cell(f"{text}, z")])
+    (row,) = csv.reader([stream.getvalue().rstrip()], delimiter=delimiter)
+    for cell in row:
+        begins = cell.lstrip(' "\ufeff\u200b')
+        assert not begins.startswith(tuple("=+-@\uff1d\uff0b\uff0d\uff20\ufe66\u2212")), row
+
+
+def test_other_cells_stay_as_they_are():
+    for text in ("x = 1", "ada@x.org", "3-4", "a; b", "a, b - c", "1; 2"):
+        assert safe_cell(text) == text
 
 
 # --- deadlines

@@ -86,7 +86,16 @@ def read_table(path: Path) -> Table:
     return Table(path, rows[0], rows[1:], delimiter, "mark" in encoding)
 
 
+_FORMULA = re.compile(
+    r"""((?:^|[;,])[\s"\x00-\x1f\u200b-\u200f\u2060\ufeff]*)"""
+    "(?=[-=+@\u2212\ufe62\ufe63\ufe66\ufe6b\uff0b\uff0d\uff1d\uff20])"
+)
+"""The beginning of a formula, also in full-width letters, and of one after a semicolon or comma."""
+
+
 def safe_cell(text: str) -> str:
-    """Return a text in one line that no spreadsheet takes for a formula."""
-    text = " ".join(text.split())
-    return f"'{text}" if text.startswith(("=", "+", "-", "@")) else text
+    """Return a text in one line that no spreadsheet takes for a formula.
+
+    A program that splits a table at semicolons sees further cells in it.
+    """
+    return _FORMULA.sub(r"\1'", " ".join(text.split()))
