@@ -23,6 +23,7 @@ from botschool.grading.classes.layouts import (
     visible,
 )
 from botschool.grading.classes.people import People, Person
+from botschool.grading.classes.times import SUBMITTED
 from botschool.grading.classes.unpack import Unpackable, room_of_download, unpack
 from botschool.grading.declare.checks import plain
 
@@ -66,7 +67,7 @@ def read_export(download: Path, wanted: Iterable[Wanted], new_folder: Callable[[
             f"{download} holds no submissions: it needs a folder for each student, or must be "
             "a learning platform's zip file."
         )
-    return Export(list(people.found.values()), people.nobodys, notes)
+    return Export(list(people.found.values()), people.nobodys, notes + people.notes)
 
 
 def one_person(place: Path, new_folder: Callable[[], Path]) -> Person:
@@ -77,15 +78,14 @@ def one_person(place: Path, new_folder: Callable[[], Path]) -> Person:
         people.entries(place.parent if place.is_file() else place, only=names)
         if len(people.found) == 1:
             return next(iter(people.found.values()))
-    person = Person(plain(place.name), place.name)
-    collector = Collector(new_folder)
-    if place.is_dir():
-        collector.add_folder(place)
-    else:
-        place = place.absolute()
-        collector.add_file(place.parent, place.name, place.name, level=-1)
-    person.handed = collector.handed
-    return person
+
+    def add(collector: Collector) -> None:
+        if place.is_dir():
+            collector.add_folder(place)
+        else:
+            collector.add_file(place.absolute().parent, place.name, place.name, level=-1)
+
+    return Person(plain(place.name), place.name, sources=[add], new_folder=new_folder)
 
 
 def _only_zip(top: Path) -> Path | None:
@@ -131,8 +131,8 @@ def _descend(top: Path, wanted: list[Wanted], is_zip: bool) -> Path:
     """Return the folder that holds the people: `top`, or its only sub-folder, at any depth."""
     inner = top
     for _ in range(8):
-        if (inner / "nbgrader_config.py").is_file() and (inner / "submitted").is_dir():
-            return inner / "submitted"
+        if (inner / "nbgrader_config.py").is_file() and (inner / SUBMITTED).is_dir():
+            return inner / SUBMITTED
         entries = [e for e in visible(inner) if not e.name.lower().endswith(TABLES)]
         alone = len(entries) == 1 and is_folder(entries[0])
         if not alone or is_of_platform(entries[0].name) or _is_copy(inner, wanted):
@@ -143,7 +143,7 @@ def _descend(top: Path, wanted: list[Wanted], is_zip: bool) -> Path:
     folders = [entry for entry in visible(inner) if is_folder(entry)]
     platform = any(is_of_platform(entry.name) for entry in visible(inner))
     clones = sum((Path(entry.path) / ".git").exists() for entry in folders)
-    named = inner.name == "submitted" and bool(folders)
+    named = inner.name == SUBMITTED and bool(folders)
     several = len(folders) > 1 and (is_zip or _are_people(folders, wanted))
     zips = [Path(e.path) for e in visible(inner) if e.name.lower().endswith(".zip")]
     several |= sum(holds_exercise(path, wanted) for path in zips) > 1

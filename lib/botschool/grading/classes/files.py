@@ -71,6 +71,8 @@ class File:
     """Its path relative to that folder."""
     shown: str
     """Its path as the person knows it, without a platform's additions."""
+    packed: File | None = None
+    """The outermost archive that holds it."""
 
     @property
     def path(self) -> Path:
@@ -116,8 +118,10 @@ class Collector:
         self._room = room_of_submission()
         self.handed = Handed()
 
-    def add_folder(self, folder: Path, shown: str = "", level: int = 0) -> None:
-        """Add the files of a folder; shown: the beginning of the paths to show."""
+    def add_folder(
+        self, folder: Path, shown: str = "", level: int = 0, packed: File | None = None
+    ) -> None:
+        """Add the files of a folder; shown: the beginning of their paths; packed: as in File."""
         if folder.is_symlink():
             self.handed.links.append(shown.rstrip("/") or folder.name)
             return
@@ -148,10 +152,12 @@ class Collector:
                         waiting.append((name + "/", depth + 1))
                     else:
                         self.handed.notes.append(f"{shown}{name} lies too deep: ignored.")
-                elif not self.add_file(folder, name, shown + name, level):
+                elif not self.add_file(folder, name, shown + name, level, packed):
                     return
 
-    def add_file(self, top: Path, place: str, shown: str, level: int = 0) -> bool:
+    def add_file(
+        self, top: Path, place: str, shown: str, level: int = 0, packed: File | None = None
+    ) -> bool:
         """Add a file, or a zip file's content; return False if there are too many files.
 
         level: of zip files around it; -1 for one that is a whole submission.
@@ -161,18 +167,18 @@ class Collector:
                 f"There are more than {MAX_FILES} files: the others are ignored."
             )
             return False
-        file = File(top, place, shown)
+        file = File(top, place, shown, packed)
         lower = shown.lower()
-        packed = lower.endswith((*ARCHIVES, *PACKED))
-        if not (packed or lower.endswith(_MAY_BE_ZIP) or not re.search(r"\.\w+$", file.name)):
+        is_packed = lower.endswith((*ARCHIVES, *PACKED))
+        if not (is_packed or lower.endswith(_MAY_BE_ZIP) or not re.search(r"\.\w+$", file.name)):
             self.handed.files.append(file)
             return True
         head = _head(file)
         kind = kind_of(head, file.name)
         is_text = head.isascii() and b"\0" not in head and head[:2] not in (b"", b"PK")
-        if is_archive(head, file.name) or (packed and not kind and not is_text):
+        if is_archive(head, file.name) or (is_packed and not kind and not is_text):
             self._add_archive(file, level)
-        elif packed and kind:
+        elif is_packed and kind:
             self.handed.notes.append(f"{shown} is {kind}, so it stays packed.")
         else:
             self.handed.files.append(file)
@@ -202,7 +208,7 @@ class Collector:
         except Unpackable as error:
             self.handed.notes.append(f"{file.shown} {error}, so it stays packed.")
         else:
-            self.add_folder(target, f"{file.shown}/", level + 1)
+            self.add_folder(target, f"{file.shown}/", level + 1, file.packed or file)
 
 
 def _head(file: File) -> bytes:

@@ -13,6 +13,8 @@ from botschool.grading.classes.choice import MAX_NAMED, Choice, Wanted
 from botschool.grading.classes.export import one_person
 from botschool.grading.classes.files import TIMESTAMP, listed
 from botschool.grading.classes.people import Person
+from botschool.grading.classes.wall import Broken, broken, walled
+from botschool.grading.declare.checks import plain
 from botschool.grading.declare.exercise import Exercise, Number
 
 
@@ -37,19 +39,41 @@ class Submission:
 def find_submissions(
     people: Iterable[Person], wanted: list[Wanted], root: Path, new_folder: Callable[[], Path]
 ) -> list[Submission]:
-    """Choose the file of each exercise among what each person handed in."""
+    """Choose the file of each exercise among what each person handed in.
+
+    Each person's files are read behind a wall (`walled`): what cannot be read costs only its owner.
+    """
     found = []
     for person in people:
         one = Submission(person)
-        for each in wanted:
-            if person.problem:
-                one.choices[each.number] = Choice(problem=person.problem)
-                continue
-            newest_first = person.platform in ("canvas", "attempt")
-            one.choices[each.number] = each.choose(person.handed, new_folder, newest_first)
-        one.notes = [*person.handed.notes, *_left(one, root)]
+        try:
+            one.choices, one.notes = walled(_read, person, wanted, root, new_folder())
+        except Broken as error:
+            one.choices = {each.number: _unreadable(error) for each in wanted}
         found.append(one)
     return found
+
+
+def _read(
+    person: Person, wanted: list[Wanted], root: Path, folder: Path
+) -> tuple[dict[Number, Choice], list[str]]:
+    """Return a person's choices and notes; folder: for what is unpacked and copied."""
+    one = Submission(person)
+    if person.problem:
+        return {each.number: Choice(problem=person.problem) for each in wanted}, []
+    person.new_folder = new_folder = numbered_folders(folder)
+    handed, newest_first = person.handed, person.platform in ("canvas", "attempt")
+    for each in wanted:
+        try:
+            one.choices[each.number] = each.choose(handed, new_folder, newest_first)
+        except Exception as error:
+            one.choices[each.number] = _unreadable(broken(error))
+    return one.choices, [*handed.notes, *_left(one, root)]
+
+
+def _unreadable(error: Broken) -> Choice:
+    problem = f"What was handed in cannot be read ({plain(str(error))}): hand in the file alone."
+    return Choice(problem=problem, unread=error.ours)
 
 
 def _left(one: Submission, root: Path) -> list[str]:

@@ -132,7 +132,8 @@ def _zip(files: dict[str, bytes]) -> bytes:
     buffer = BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in sorted(files.items()):
-            info = zipfile.ZipInfo(name, _EPOCH)
+            whole = name.encode("utf-8", "replace").decode()  # a student's name may be no UTF-8
+            info = zipfile.ZipInfo(whole.replace("?", "_"), _EPOCH)
             info.compress_type = zipfile.ZIP_DEFLATED
             archive.writestr(info, content)
     return buffer.getvalue()

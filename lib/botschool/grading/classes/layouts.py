@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from botschool.errors import BotschoolError
 from botschool.grading.classes.files import is_junk
 from botschool.grading.classes.times import moment_of
+from botschool.grading.classes.unpack import holds_more
 
 if TYPE_CHECKING:
     from botschool.grading.classes.choice import Wanted
@@ -23,14 +24,16 @@ MOODLE = re.compile(
 )
 CANVAS = re.compile(
     r"(?P<name>.+?)_(?P<late>LATE_)?(?P<id>\d+|(?<=anon_)[^\W_]{5}|(?<=anonymous_)[^\W_]{5})"
-    r"_(?P<submission>\d+)_(?P<rest>.+)",
+    r"_(?P<submission>\d+)_(?P<rest>(?!assignsubmission_).+)",
     re.DOTALL,
 )
 ATTEMPT = re.compile(
-    r"(?:.*_)?(?P<name>[^_]+)_attempt_(?P<time>\d{4}(?:-\d\d){5})(?:_(?P<rest>.+)|\.txt)", re.DOTALL
+    r"(?:.*?_)??(?P<name>[^_]+)_attempt_(?P<time>\d{4}(?:-\d\d){5})(?:_(?P<rest>.+)|\.txt)",
+    re.DOTALL,
 )
 """Blackboard's names of files, and those that nbgrader's zip_collect reads."""
-GRADESCOPE = re.compile(r"submission_(?P<id>\d+)")
+GRADESCOPE = re.compile(r"(?P<name>submission)_(?P<id>\d+)")
+_PLATFORMS = {"moodle": MOODLE, "canvas": CANVAS, "gradescope": GRADESCOPE, "attempt": ATTEMPT}
 VERSION = re.compile(
     r"(?i)(v|ver|version|attempt|try|old|new|backup|copy|final|draft|week|ex|exercise|task"
     r"|submission)?[\W_]*\d*"
@@ -38,6 +41,8 @@ VERSION = re.compile(
 """Names of folders in which one person keeps several versions, or several exercises."""
 TABLES = (".csv", ".yaml", ".yml")
 """Suffixes of a class's tables and settings."""
+MAX_NAMES = 50_000
+"""Names in a zip file that may be a class, beside others."""
 
 
 def visible(folder: Path) -> list[os.DirEntry]:
@@ -67,26 +72,36 @@ def is_folder(entry: os.DirEntry) -> bool:
     return entry.is_dir(follow_symlinks=False)
 
 
+def recognised(name: str) -> tuple[str, re.Match] | None:
+    """Return the platform that gives such a name to a person's file or folder, and the match.
+
+    The end of a file's name is the student's choice, and may look like another platform's name: the
+    match that begins with the shortest name of a person counts.
+    """
+    found = [(key, match) for key, each in _PLATFORMS.items() if (match := each.fullmatch(name))]
+    return min(found, key=lambda each: each[1].end("name"), default=None)
+
+
 def is_of_platform(name: str) -> bool:
     """Return whether a platform gives such a name to a person's file or folder."""
-    return any(each.fullmatch(name) for each in (MOODLE, CANVAS, GRADESCOPE, ATTEMPT))
+    return recognised(name) is not None
 
 
 def is_class(names: Iterable[str]) -> bool:
     """Return whether the names in a folder are those of a platform's class."""
-    shown = [name for name in names if not is_hidden(name)]
-    return any(MOODLE.fullmatch(name) or GRADESCOPE.fullmatch(name) for name in shown) or (
-        bool(shown) and all(CANVAS.fullmatch(name) or ATTEMPT.fullmatch(name) for name in shown)
-    )
+    found = [recognised(name) for name in names if not is_hidden(name)]
+    if any(each and each[0] in ("moodle", "gradescope") for each in found):
+        return True
+    return bool(found) and all(found)
 
 
 def names_in(path: Path) -> list[str]:
-    """Return the names in a zip file; none if it cannot be read."""
-    try:
-        with zipfile.ZipFile(path) as archive:
-            return archive.namelist()
-    except (OSError, ValueError, NotImplementedError, zipfile.BadZipFile):
-        return []
+    """Return the names in a zip file; none if it cannot be read, or holds too many."""
+    with contextlib.suppress(Exception):
+        if not holds_more(path, MAX_NAMES):
+            with zipfile.ZipFile(path) as archive:
+                return archive.namelist()
+    return []
 
 
 def holds_exercise(path: Path, wanted: list[Wanted]) -> bool:

@@ -9,11 +9,13 @@ from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.classes.choice import Choice
+from botschool.grading.classes.files import File
 from botschool.grading.classes.finding import Submission
 from botschool.grading.classes.people import Person
 from botschool.grading.classes.policy import Policy, moodle_moment, tidy, unknown_names
 from botschool.grading.classes.roster import Roster, Student
 from botschool.grading.classes.times import told_by
+from botschool.grading.classes.wall import Broken, walled
 from botschool.grading.declare.exercise import Number
 
 _NUMBERS = ("participant", "user", "sid", "submission")
@@ -45,6 +47,13 @@ class Graded:
     results: list[dict[str, Any]]
     total: float | None
     """The points of all exercises; None if one of them was not graded."""
+
+
+def _told(file: File) -> datetime | None:
+    try:
+        return walled(told_by, file)
+    except Broken:
+        return None
 
 
 class Register:
@@ -85,7 +94,12 @@ class Register:
                 zip(self.submissions, self.students, strict=True)
             )
         ]
-        self._told: dict[tuple[int, Number], datetime | None] = {}
+        self._told = {
+            (index, number): _told(choice.origin)
+            for index, one in enumerate(submissions)
+            for number, choice in one.choices.items()
+            if choice.origin and not one.person.platform and self.policy.has_deadline(number)
+        }
         self._check_names()
         self._mark_doubles()
 
@@ -106,11 +120,7 @@ class Register:
         """Return when an exercise was handed in, if the platform or the files tell."""
         person, student = self.submissions[index].person, self.students[index]
         if not person.platform and self.policy.has_deadline(number):
-            origin = self.submissions[index].choices[number].origin
-            key = (index, number)
-            if origin and key not in self._told:
-                self._told[key] = told_by(origin)
-            return self._told.get(key)
+            return self._told.get((index, number))
         if person.submitted is None and student and self.roster.kind == "moodle":
             row = self.roster.table.rows[student.row]
             return moodle_moment(self.roster.table.get(row, "submitted"))

@@ -22,6 +22,8 @@ from botschool.grading.classes.roster import words
 from botschool.grading.declare.checks import plain
 from botschool.grading.declare.exercise import Number, called
 
+from botschool.grading.classes.wall import Broken, walled
+
 LENGTH = 9
 """Tokens in a sequence to compare."""
 LEAST, MOST_PAIRS = 0.5, 20
@@ -123,7 +125,11 @@ def similar_pairs(programs: Sequence[Program], skeleton: str) -> list[Pair]:
     given = _sequences(skeleton).keys()
     all_of = []
     for program in programs:
-        own = {key: lines for key, lines in _sequences(program.text).items() if key not in given}
+        try:
+            sequences = walled(_sequences, program.text)
+        except Broken:
+            continue
+        own = {key: lines for key, lines in sequences.items() if key not in given}
         if len(own) >= MIN_SEQUENCES:
             all_of.append((program, own))
     having = Counter(key for _, own in all_of for key in own)

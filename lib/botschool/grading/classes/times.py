@@ -19,6 +19,8 @@ from botschool.sandbox.inside import read_inside
 METADATA = ("submission_metadata.yml", "submission_metadata.yaml")
 _MAX_METADATA, _MAX_VALUES = 20 * 2**20, 5_000_000
 _MAX_REFS, _SECONDS = 5_000_000, 20
+SUBMITTED = "submitted"
+"""The folder of nbgrader's course that holds the students' folders."""
 _COMMIT = re.compile(r"[0-9a-f]{40}")
 
 
@@ -72,15 +74,24 @@ def moment_of(value: Any) -> datetime | None:
 
 
 def told_by(file: File) -> datetime | None:
-    """Return when a file was handed in: nbgrader's file beside it, or its last commit, tells."""
-    return _collected(file) or _committed(file)
+    """Return when a file was handed in, from what a platform writes: a clone, or nbgrader's file.
+
+    Students can write the same within what they hand in: of several clones the outermost counts, in
+    an archive none, and nbgrader's file beside a clone only in the folder `submitted`.
+    """
+    file = file.packed or file
+    if file.top.parent.name == SUBMITTED:
+        return _collected(file)
+    return _committed(file) or _collected(file)
 
 
 def _collected(file: File) -> datetime | None:
     """Return the time in nbgrader's file: "2026-11-20 21:14:03.5 Europe/Rome"."""
-    place = str(PurePosixPath(file.place).with_name(TIMESTAMP))
+    beside = PurePosixPath(file.place).with_name(TIMESTAMP)
+    if len(beside.parts) > 2:  # STUDENT/EXERCISE/timestamp.txt, with file.top for STUDENT
+        return None
     try:
-        words = read_inside(file.top, place, 100).decode().split()
+        words = read_inside(file.top, str(beside), 100).decode().split()
         moment = datetime.fromisoformat(" ".join(words[:2]))
         zone = ZoneInfo(words[2]) if len(words) > 2 else None
     except (OSError, ValueError, LookupError):
@@ -91,7 +102,7 @@ def _collected(file: File) -> datetime | None:
 def _committed(file: File) -> datetime | None:
     """Return the time of the last commit that changed a file, in the file's repository."""
     parts = PurePosixPath(file.place).parts
-    for depth in range(len(parts) - 1, -1, -1):
+    for depth in range(len(parts)):
         git = file.top.joinpath(*parts[:depth], ".git")
         if git.is_dir() and not git.is_symlink():
             return _last_commit(git, "/".join(parts[depth:]))

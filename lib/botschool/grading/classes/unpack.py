@@ -7,16 +7,20 @@ import contextlib
 import gzip
 import io
 import lzma
+import mmap
+import os
 import re
 import stat
 import tarfile
 import zipfile
-import zlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
+from itertools import islice
 from pathlib import Path, PurePosixPath
 from typing import IO, Any
+
+from botschool.grading.run.confined import SHORTAGES
 
 MAX_LEVELS = 5
 """Levels of zip files within zip files."""
@@ -33,6 +37,8 @@ _COMPRESSED: tuple[tuple[bytes, Callable[[IO[bytes]], Any]], ...] = (
 )
 
 
+_ENTRY = re.compile(b"PK\x01\x02")
+"""The beginning of each entry in a zip file's list."""
 _TOO_MUCH = "holds too many or too large files"
 
 
@@ -80,20 +86,38 @@ def unpack(archive: Path | bytes, target: Path, room: Room, name: str = "") -> l
     """
     left_out: list[str] = []
     numbers: dict[Path, int] = {}
+    if holds_more(archive, 2 * room.files):
+        raise Unpackable(_TOO_MUCH)
     try:
         for member in _members(archive, room, name):
+            room.files -= 1
+            if room.files < 0:
+                raise Unpackable(_TOO_MUCH)
             place = _inside(target, member, numbers)
             if place is None or not _write(member, place, room):
                 left_out.append(member.name)
                 _keep_folder(target, member)
-    except RuntimeError:
-        raise Unpackable("needs a password") from None
-    except (
-        zipfile.BadZipFile, zlib.error, EOFError, ValueError, NotImplementedError,
-        tarfile.TarError, lzma.LZMAError, gzip.BadGzipFile,
-    ):  # fmt: skip
-        raise Unpackable("is damaged, or no zip file") from None
+    except Unpackable:
+        raise
+    except Exception as error:
+        if isinstance(error, OSError) and error.errno in SHORTAGES:
+            raise
+        needs = "password" in str(error) and type(error) is RuntimeError
+        reason = "needs a password" if needs else "is damaged, or no zip file"
+        raise Unpackable(reason) from None
     return left_out
+
+
+def holds_more(archive: Path | bytes, most: int) -> bool:
+    """Return whether a zip file lists more entries, without reading the list. Raises OSError."""
+    with contextlib.ExitStack() as stack:
+        content: Any = archive
+        if isinstance(archive, Path):
+            file = stack.enter_context(archive.open("rb"))
+            if not os.fstat(file.fileno()).st_size:
+                return False
+            content = stack.enter_context(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
+        return any(True for _ in islice(_ENTRY.finditer(content), most, None))
 
 
 def _members(archive: Path | bytes, room: Room, name: str) -> Iterator[_Member]:
@@ -107,10 +131,7 @@ def _members(archive: Path | bytes, room: Room, name: str) -> Iterator[_Member]:
             yield _Member(name.rpartition(".")[0], len(content), False, True, lambda: file)
             return
     with zipfile.ZipFile(io.BytesIO(archive) if isinstance(archive, bytes) else archive) as zip:
-        entries = zip.infolist()
-        if len(entries) > 2 * room.files:
-            raise Unpackable(_TOO_MUCH)
-        for entry in entries:
+        for entry in zip.infolist():
             shown, is_link = _readable(entry), stat.S_ISLNK(entry.external_attr >> 16)
             folder = shown.endswith("/")
             yield _Member(shown, entry.file_size, folder, not is_link, partial(zip.open, entry))
@@ -190,8 +211,7 @@ def _short(part: str) -> str:
 
 def _write(member: _Member, place: Path, room: Room) -> bool:
     """Unpack a file; return False where the name of one of its folders is that of a file."""
-    room.files -= 1
-    if room.files < 0 or (member.is_file and member.size > room.size):
+    if member.is_file and member.size > room.size:
         raise Unpackable(_TOO_MUCH)
     try:
         (place if member.is_folder else place.parent).mkdir(parents=True, exist_ok=True)
