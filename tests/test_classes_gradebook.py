@@ -120,6 +120,7 @@ TWICE = {
     "a name alone": ("name", "Ada Byron", "Ada Byron"),
     "an id": ("name,id,email", "Ada Byron,7,a@x.org", '"Byron, Ada",7,ada@x.org'),
     "an email in capitals": ("name,id,email", "Ada Byron,7,A@x.org", "Ada King Byron,,a@x.org"),
+    "a row without a name": ("name,id,email", ",7,a@x.org", "Ada Byron,7,"),
     "a user name": ("name,username,section", "Ada Byron,ada,1", "Ada Byron,ada,2"),
     "one by one": ("name,id,email,user", "Ada Byron,7,,", "Ada Byron,7,a@x.org,", "Ada,,a@x.org,a"),
     "Moodle's number": ("Identifier,Name,Grade", "Participant 7,Ada Byron,", "Participant 7,A,"),

@@ -30,30 +30,23 @@ class Wanted(Sought):
         self, handed: Handed, new_folder: Callable[[], Path], newest_first: bool = False
     ) -> Choice:
         """Return the file to grade; newest_first: whether the platform numbers attempts."""
-        return choose(handed, self, new_folder, newest_first)
-
-
-def choose(
-    handed: Handed, wanted: Wanted, new_folder: Callable[[], Path], newest_first: bool = False
-) -> Choice:
-    """Return the file to grade; newest_first: whether the platform numbers attempts."""
-    candidates, unread = _candidates(handed, wanted)
-    if not candidates and handed.checkpoints:
-        kept = Handed(handed.checkpoints, handed.links)
-        candidates, unread = _candidates(kept, wanted)
-    if not candidates:
-        if any(_is_of(link, wanted) for link in handed.links):
-            return Choice(problem=f"{wanted.file} is a link to another place.")
-        if unread or handed.unread:
-            return Choice(problem=f"The folder of {wanted.file} is unreadable.", unread=True)
-        return Choice(problem=_nothing(handed, wanted))
-    ranked = sorted(candidates, key=lambda each: each.rank(newest_first), reverse=True)
-    best, others = ranked[0], ranked[1:]
-    choice = Choice(origin=best.file, changed=best.differs)
-    choice.used |= {each.file for each in ranked}
-    choice.notes = [*_choosing(best, others, wanted), *_looks(best, wanted)]
-    settle(choice, best, handed, wanted, new_folder)
-    return choice
+        candidates, unread = _candidates(handed, self)
+        if not candidates and handed.checkpoints:
+            kept = Handed(handed.checkpoints, handed.links)
+            candidates, unread = _candidates(kept, self)
+        if not candidates:
+            if any(_is_of(link, self) for link in handed.links):
+                return Choice(problem=f"{self.file} is a link to another place.")
+            if unread or handed.unread:
+                return Choice(problem=f"The folder of {self.file} is unreadable.", unread=True)
+            return Choice(problem=_nothing(handed, self))
+        ranked = sorted(candidates, key=lambda each: each.rank(newest_first), reverse=True)
+        best, others = ranked[0], ranked[1:]
+        choice = Choice(origin=best.file, changed=best.differs)
+        choice.used |= {each.file for each in ranked}
+        choice.notes = [*_choosing(best, others, self), *_looks(best, self)]
+        settle(choice, best, handed, self, new_folder)
+        return choice
 
 
 def _choosing(best: Candidate, others: list[Candidate], wanted: Wanted) -> list[str]:

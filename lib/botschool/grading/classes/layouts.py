@@ -139,12 +139,6 @@ def attempts_of(names: list[str]) -> dict[str, tuple[str, str, datetime | None]]
 
 def clones_in(folder: Path) -> list[Path]:
     """Return the repositories in a folder that is not one itself, if there are several."""
-    if (folder / ".git").exists():
-        return []
-    try:
-        with os.scandir(folder) as entries:
-            inner = sorted(Path(entry.path) for entry in entries if is_folder(entry))
-    except OSError:
-        return []
-    clones = [path for path in inner if (path / ".git").exists()]
-    return clones if len(clones) > 1 and len(clones) == len(inner) else []
+    inner = sorted(Path(entry.path) for entry in entries_of(folder) if is_folder(entry))
+    several = len(inner) > 1 and all((path / ".git").exists() for path in inner)
+    return inner if several and not (folder / ".git").exists() else []

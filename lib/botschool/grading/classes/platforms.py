@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.batch import to_record
+from botschool.grading.classes.batch import Grades, to_record
 from botschool.grading.classes.finding import find_in
 from botschool.grading.declare.exercise import (
     STATE,
@@ -57,16 +57,9 @@ def graded(number: int, place: Path, only_changed: bool = False) -> dict[str, An
     notes = [*choice.notes, *one.notes]
     if choice.file is None or (only_changed and not choice.changed):
         problem = choice.problem or f"Nothing was changed in {exercise.file} yet."
-        tasks = [
-            {"id": t.id, "title": t.title, "points": 0, "max_points": t.max_points,
-             "message": problem, "printed": ""}
-            for t in exercise.tasks
-        ]  # fmt: skip
-        return {
-            "exercise": number, "title": exercise.title, "points": 0,
-            "max_points": sum(t.max_points for t in exercise.tasks), "tasks": tasks,
-            "banner": "", "problem": problem, "notes": notes, "missing": [],
-        }  # fmt: skip
+        nothing = Grades(root).nothing(number, problem)
+        tasks = [task | {"message": problem} for task in nothing["tasks"]]
+        return nothing | {"tasks": tasks, "notes": notes}
     folder = (place if place.is_dir() else place.parent).resolve()
     if not root.resolve().is_relative_to(folder):  # else it is the student's own course
         close_class(folder)

@@ -33,6 +33,11 @@ class Student:
     def rows(self) -> list[int]:
         return [self.row, *(each.row for each in self.again)]
 
+    @property
+    def is_named(self) -> bool:
+        """Return whether the table has a name, for which else a key stands."""
+        return self.name not in (self.user, self.mail, self.id)
+
     def keys(self) -> set[str]:
         """Return the words that name only this student, in lower case."""
         given = (self.id, self.mail, self.user, self.mail.partition("@")[0])
@@ -42,21 +47,6 @@ class Student:
     def names(self) -> set[str]:
         """Return the words of the name, as each row has it."""
         return {words(each.name) for each in (self, *self.again)}
-
-    def is_same(self, other: Student) -> bool:
-        """Return whether two rows are of one student: they share a number or a key, and the name.
-
-        Names need not be equal, but one must hold the words of the other. Tables put the same dash
-        into many cells, so a key alone tells nothing.
-        """
-        if any(getattr(self, n) and getattr(self, n) == getattr(other, n) for n in _NUMBERS):
-            return True
-        mine, others = set(words(self.name).split()), set(words(other.name).split())
-        shared = any(
-            getattr(self, key) and getattr(self, key).casefold() == getattr(other, key).casefold()
-            for key in _KEYS
-        )
-        return shared and (mine <= others or others <= mine)
 
 
 _KEYS, _NUMBERS = ("id", "mail", "user"), ("participant", "canvas")
@@ -191,19 +181,24 @@ def read_roster(path: Path) -> Roster:
 
 
 def _merged(students: list[Student], table: Table) -> tuple[list[Student], list[str]]:
-    """Return each student once, with all rows, and a sentence on each who has several."""
+    """Return each student once, with all rows, and a sentence on each who has several.
+
+    Rows are of one student if they have the same number of a platform, or are equal, or have an id,
+    email or user name in common and one name holds the words of the other: tables put the same dash
+    into many cells, so a key alone tells nothing.
+    """
     found: list[Student] = []
     places: dict[tuple, list[int]] = {}
     for one in students:
         fields = {key: getattr(one, key) for key in (*_KEYS, *_NUMBERS)}
         keys: list[tuple] = [(key, value.casefold()) for key, value in fields.items() if value]
-        keys.append(tuple(table.rows[one.row]))  # two equal rows, perhaps of a name alone
-        for at in [at for key in keys for at in places.get(key, [])]:
+        keys.append(("row", *table.rows[one.row]))
+        for kind, at in [(key[0], at) for key in keys for at in places.get(key, [])]:
             known = found[at]
-            equal = table.rows[one.row] == table.rows[known.row]
-            if equal or any(row.is_same(one) for row in (known, *known.again)):
+            if kind not in _KEYS or any(_alike(one, row) for row in (known, *known.again)):
                 filled = {key: getattr(known, key) or value for key, value in fields.items()}
-                found[at] = replace(known, again=(*known.again, one), **filled)
+                name = known.name if known.is_named or not one.is_named else one.name
+                found[at] = replace(known, name=name, again=(*known.again, one), **filled)
                 break
         else:
             at = len(found)
@@ -217,3 +212,9 @@ def _merged(students: list[Student], table: Table) -> tuple[list[Student], list[
         if each.again
     ]
     return found, notes
+
+
+def _alike(one: Student, other: Student) -> bool:
+    """Return whether two names may be of one student."""
+    mine, others = set(words(one.name).split()), set(words(other.name).split())
+    return mine <= others or others <= mine or not (one.is_named and other.is_named)

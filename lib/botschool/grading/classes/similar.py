@@ -22,6 +22,7 @@ from botschool.grading.classes.roster import words
 from botschool.grading.declare.checks import plain
 from botschool.grading.declare.exercise import Number, called
 
+from botschool.grading.classes.statistics import page_without_scripts
 from botschool.grading.classes.wall import Broken, walled
 
 LENGTH = 9
@@ -211,17 +212,12 @@ def similarity_page(
                 f'<div class="both">{_listing(pair.first, pair.lines[0])}'
                 f"{_listing(pair.second, pair.lines[1])}</div></section>"
             )
-    return (
-        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
-        '<meta http-equiv="Content-Security-Policy"\n'
-        " content=\"default-src 'none'; style-src 'unsafe-inline'\">\n"
-        '<meta name="generator" content="botschool grade-all">\n'
-        "<title>Similar submissions</title>\n"
-        f"<style>{_STYLE}</style>\n</head>\n<body>\n"
+    about = (
         "<p>Compared without comments, layout and the names of variables; what the skeleton holds "
         "does not count, and what many have counts little. A similar pair is a reason to look, "
-        "and no proof.</p>\n" + "\n".join(body) + "\n</body>\n</html>\n"
+        "and no proof.</p>"
     )
+    return page_without_scripts("Similar submissions", _STYLE, "\n".join([about, *body]))
 
 
 def _title(pair: Pair) -> str:

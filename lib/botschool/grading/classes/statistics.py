@@ -98,14 +98,22 @@ def statistics_page(tasks: list[TaskStatistics], notes: list[str]) -> str:
             f'<td class="n">{len(task.points)}</td></tr>'
         )
     said = "".join(f"<li>{escape(note)}</li>" for note in notes)
+    return page_without_scripts(
+        "The class",
+        _STYLE,
+        f"<h1>Where the class stumbled</h1>\n<ul>{said}</ul>\n<table>\n<tr><th>task</th><th></th>"
+        "<th></th><th>mean</th><th>full</th><th>zero</th><th>graded</th></tr>\n"
+        + "\n".join(rows)
+        + "\n</table>",
+    )
+
+
+def page_without_scripts(title: str, style: str, body: str) -> str:
+    """Return a page of its own that loads nothing."""
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta http-equiv="Content-Security-Policy"\n'
         " content=\"default-src 'none'; style-src 'unsafe-inline'\">\n"
-        '<meta name="generator" content="botschool grade-all">\n<title>The class</title>\n'
-        f"<style>{_STYLE}</style>\n</head>\n<body>\n<h1>Where the class stumbled</h1>\n"
-        f"<ul>{said}</ul>\n<table>\n<tr><th>task</th><th></th><th></th><th>mean</th>"
-        "<th>full</th><th>zero</th><th>graded</th></tr>\n"
-        + "\n".join(rows)
-        + "\n</table>\n</body>\n</html>\n"
+        f'<meta name="generator" content="botschool grade-all">\n<title>{title}</title>\n'
+        f"<style>{style}</style>\n</head>\n<body>\n{body}\n</body>\n</html>\n"
     )
