@@ -125,6 +125,8 @@ class Download(Kind):
             export = read_export(path, self.wanted, new_folder)
             for one in find_submissions(export.people, self.wanted, ROOT, new_folder):
                 json.dumps([one.student, one.notes, str(one.files)])
+                walled = [each.problem for each in one.choices.values() if "read (" in each.problem]
+                assert not walled, walled
             outside = [p for p in self.folder.iterdir() if p not in (folder, path)]
             assert not outside, outside
         finally:

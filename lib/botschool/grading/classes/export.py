@@ -18,6 +18,7 @@ from botschool.grading.classes.layouts import (
     TABLES,
     VERSION,
     holds_exercise,
+    is_clone,
     is_folder,
     is_of_platform,
     visible,
@@ -142,7 +143,7 @@ def _descend(top: Path, wanted: list[Wanted], is_zip: bool) -> Path:
         return top
     folders = [entry for entry in visible(inner) if is_folder(entry)]
     platform = any(is_of_platform(entry.name) for entry in visible(inner))
-    clones = sum((Path(entry.path) / ".git").exists() for entry in folders)
+    clones = sum(is_clone(Path(entry.path)) for entry in folders)
     named = inner.name == SUBMITTED and bool(folders)
     several = len(folders) > 1 and (is_zip or _are_people(folders, wanted))
     zips = [Path(e.path) for e in visible(inner) if e.name.lower().endswith(".zip")]

@@ -140,5 +140,10 @@ def attempts_of(names: list[str]) -> dict[str, tuple[str, str, datetime | None]]
 def clones_in(folder: Path) -> list[Path]:
     """Return the repositories in a folder that is not one itself, if there are several."""
     inner = sorted(Path(entry.path) for entry in entries_of(folder) if is_folder(entry))
-    several = len(inner) > 1 and all((path / ".git").exists() for path in inner)
-    return inner if several and not (folder / ".git").exists() else []
+    several = len(inner) > 1 and all(map(is_clone, inner))
+    return inner if several and not is_clone(folder) else []
+
+
+def is_clone(folder: Path) -> bool:
+    """Return whether a folder is a repository; False if it cannot be read."""
+    return os.path.exists(folder / ".git")
