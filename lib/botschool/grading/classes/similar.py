@@ -19,11 +19,10 @@ from html import escape
 from types import MappingProxyType
 
 from botschool.grading.classes.roster import words
-from botschool.grading.declare.checks import plain
-from botschool.grading.declare.exercise import Number, called
-
 from botschool.grading.classes.statistics import page_without_scripts
 from botschool.grading.classes.wall import Broken, walled
+from botschool.grading.declare.checks import plain
+from botschool.grading.declare.exercise import Number, called
 
 LENGTH = 9
 """Tokens in a sequence to compare."""
