@@ -48,10 +48,13 @@ class Wrapper:
             raise BotschoolError(
                 f"The wrapper {self.name} needs a package that is not installed: {said(error)}."
             ) from None
-        except Exception as error:
+        except (Exception, SystemExit) as error:
+            remedy = "give its arguments in brackets, as ResizeObservation(shape=(32, 32))"
+            if env.render_mode is None and "render" in str(error):
+                remedy = "let the environment draw, with options = render_mode='rgb_array'"
             raise BotschoolError(
-                f"The wrapper {self.name} does not fit {wrapped} ({said(error)}): give its "
-                "arguments in brackets, as ResizeObservation(shape=(32, 32)), or leave it out."
+                f"The wrapper {self.name} does not fit {wrapped} ({said(error)}): {remedy}, or "
+                "leave it out."
             ) from error
         if not isinstance(outside, gymnasium.Env):
             raise BotschoolError(

@@ -36,7 +36,7 @@ DRAWING = (("egl", "libEGL.so.1"), ("osmesa", "libOSMesa.so"), ("osmesa", "libOS
 """Ways for MuJoCo to draw without a display: value of MUJOCO_GL -> library that it needs."""
 
 
-def make_env(name: str, wrappers: Sequence[Wrapper] = (), **options) -> gymnasium.Env:
+def make_env(name: str, wrappers: Sequence[Wrapper] = (), /, **options) -> gymnasium.Env:
     """Return the environment of that id, inside the wrappers, the first one innermost.
 
     A `module:` before the id may lie in the current folder. Options go to gymnasium.make. Raises
@@ -54,7 +54,7 @@ def skipping(name: str, wrappers: Sequence[Wrapper]) -> dict[str, int]:
     return {"frameskip": 1} if preprocessed and re.fullmatch(FAMILIES[0][0], name) else {}
 
 
-def _make(name: str, **options) -> gymnasium.Env:
+def _make(name: str, /, **options) -> gymnasium.Env:
     if ":" in name:
         look_here(name.partition(":")[0])
     elif name not in gymnasium.registry:
@@ -77,7 +77,7 @@ def _make(name: str, **options) -> gymnasium.Env:
         if near:
             hint = f"did you mean {module}{colon}{near[0]}?"
         raise BotschoolError(f"There is no environment '{name}'; {hint}") from None
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         raise BotschoolError(f"{name} cannot be made: {said(error)}.") from error
 
 

@@ -29,7 +29,7 @@ NAMES = (
 )
 
 
-def make_parallel(name: str, **options: Any) -> Any:
+def make_parallel(name: str, /, **options: Any) -> Any:
     """Return the pettingzoo.ParallelEnv with that name; options go to its constructor.
 
     An environment whose agents take turns (AECEnv) is made parallel if it declares that it can be.
