@@ -126,7 +126,7 @@ def test_without_pictures(refused, tmp_path):
 def test_without_seeds_it_says_so(command, tmp_path):
     own = write(tmp_path, options="fault='unseeded'")
     code, _, errors = command("es", "-f", own, "-o", tmp_path / "run", "--generations", 1)
-    assert code == 0 and "starts differently from the same seed" in errors
+    assert code == 0 and "duels:Duel does not repeat" in errors
 
 
 def test_without_the_package_it_says_what_to_install(monkeypatch):

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import random
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from threading import Lock
 from typing import Any
 
@@ -72,6 +76,32 @@ class Numbers(Generator):
     @property
     def _source(self) -> Any:
         return self.bit_generator
+
+
+def seed_libraries(seed: int, episode: int = 0) -> int:
+    """Seed what environments draw from besides their own generator: `random`, `numpy.random`, and
+    torch if it is loaded. Return the number that they, and `reset`, get for this episode.
+    """
+    number = (seed + episode) % 2**32
+    random.seed(number)
+    np.random.seed(number)  # noqa: NPY002
+    if torch := sys.modules.get("torch"):
+        torch.manual_seed(number)
+    return number
+
+
+@contextmanager
+def libraries_kept() -> Iterator[None]:
+    """Give these generators their present state back at the end: others may draw from them, too."""
+    torch = sys.modules.get("torch")
+    states = random.getstate(), np.random.get_state(), torch and torch.get_rng_state()  # noqa: NPY002
+    try:
+        yield
+    finally:
+        random.setstate(states[0])
+        np.random.set_state(states[1])  # noqa: NPY002
+        if torch:
+            torch.set_rng_state(states[2])
 
 
 def generator(seed: int, generation: int) -> Numbers:

@@ -13,6 +13,7 @@ from botschool.config import Experiment, defaults, free, to_dict
 from botschool.errors import BotschoolError
 from botschool.evolution.record import RunFiles
 from botschool.output import save_npz
+from botschool.problems import Problem
 
 FORMAT = 1
 
@@ -22,6 +23,7 @@ class Resumable(Protocol):
 
     experiment: Experiment
     seed: int
+    problem: Problem
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
         """Raise KeyError, ValueError, IndexError or TypeError for the state of another run."""
@@ -90,7 +92,7 @@ def resume(path: Path, run: Resumable) -> None:
             f"{path} does not fit this run (the environment has changed, or parts are "
             "missing): restore it from a copy, or use --force to start anew."
         ) from None
-    if not run.reproduces():
+    if run.problem.native and not run.reproduces():  # others may be slow, or never repeat
         raise BotschoolError(
             f"{path} was written by a version of botschool that evaluates robots differently (its "
             "best one gets another fitness here): use that version, or --force to start anew."

@@ -154,12 +154,9 @@ class Coevolution(Run):
         return met, int(outcome.steps.sum())
 
     def reproduces(self) -> bool:
-        """Return whether meetings that the algorithm remembers still end as they did, to the bit.
-
-        As in `Run`, problems in Python are not checked.
-        """
+        """Return whether meetings that the algorithm remembers end as they did, to the bit."""
         remembered = self.algorithm.remembered()
-        if remembered is None or not self.problem.native:
+        if remembered is None:
             return True
         *meetings, fitness = remembered
         again, _ = self._meet(lambda: False, *meetings)

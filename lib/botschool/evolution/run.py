@@ -25,6 +25,7 @@ from botschool.evolution.limit import Limit
 from botschool.evolution.record import Record, RunFiles
 from botschool.output import save_npy
 from botschool.problems import Interrupted, Problem
+from botschool.problems.base import say_unrepeatable
 from botschool.terminal import readable
 
 EVENT_SECONDS = 10
@@ -269,11 +270,11 @@ class Run:
     def reproduces(self) -> bool:
         """Return whether the best robot on record still gets its fitness, to the bit.
 
-        If not, this version evaluates robots differently from the one that wrote the record. Only
-        native problems are checked: others may be slow, or give different results each time.
+        If not, this version evaluates robots differently from the one that wrote the record, or the
+        environment does not repeat.
         """
         record = self.record
-        if not (self.problem.native and record.generation):
+        if not record.generation:
             return True
         try:
             genotype, normalisation = self.policy.split(record.bestg)
@@ -339,6 +340,10 @@ def evolve(
                 log()
                 recorded = time.monotonic()
         save(ended=True)
+        if not run.problem.native:  # the first episodes may have hidden it
+            with suppress(BotschoolError):
+                if not run.reproduces():
+                    say_unrepeatable(run.problem.name)
     except Interrupted:
         save(ended=True)
         return False

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import multiprocessing
+import sys
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -153,13 +156,29 @@ class Problem(ABC):
         """Return the longest episode under an experiment's `maxsteps`."""
         return maxsteps if self.limit is None else min(maxsteps, self.limit)
 
-    def broken(self, what: str, seed: int, episode: int) -> BotschoolError:
-        """Return the error for an environment that returns an unusable value."""
+    def broken(self, what: str, seed: int, episode: int, acted: bool = True) -> BotschoolError:
+        """Return the error for an environment that returns an unusable value; acted: whether it had
+        got an action in this episode.
+        """
+        grown = (
+            ", or lower stepsize, noiseStdDev or mutrate if the actions have grown without bound"
+        )
         return BotschoolError(
             f"{self.name} gave {what} in episode {episode} of seed {seed}, so fitness cannot be "
-            "measured: mend the environment, or lower stepsize, noiseStdDev or mutrate if the "
-            "actions have grown without bound."
+            f"measured: mend the environment{grown if acted else ''}."
         )
 
     def close(self) -> None:
         """End the worker processes that evaluation has started."""
+
+
+@cache
+def say_unrepeatable(name: str) -> None:
+    """Print that an environment does not repeat, and why it matters."""
+    if multiprocessing.parent_process() is None:
+        print(
+            f"note: {name} does not repeat: an episode played again from the same seed is not the "
+            "same, so the same command, -w, --resume and -p give other results: let reset set "
+            "everything anew, and draw random numbers from self.np_random only",
+            file=sys.stderr,
+        )

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import multiprocessing
-import sys
 from dataclasses import replace
 from typing import Any
 
@@ -13,10 +11,11 @@ from botschool import wrappers
 from botschool.errors import BotschoolError
 from botschool.policies.hyperparameters import PolicyConfig
 from botschool.policies.pair import Pair
-from botschool.problems.python import PythonProblem
+from botschool.problems.python import PythonProblem, Wrong
 from botschool.problems.spaces import Flattener, Unsupported, fitted, interface
 from botschool.problems.transition import Transition
 from botschool.problems.zoo import make_parallel
+from botschool.seeds import seed_libraries
 
 
 class ParallelProblem(PythonProblem):
@@ -39,9 +38,9 @@ class ParallelProblem(PythonProblem):
         self.name = self.dynamics = name
         self.made = {"name": name, "options": options, "competitive": True}
         self._options = wrappers.keywords(options)
-        self._env = make_parallel(name, **self._options)
+        self._renew()
         self.limit = None
-        self.fps = self._env.metadata.get("render_fps") or 30
+        self.fps = self._metadata.get("render_fps") or 30
         self.agents = self._two_agents()
         one, other = map(str, self.agents)
         self.sides = one, other
@@ -49,7 +48,6 @@ class ParallelProblem(PythonProblem):
         for agent in self.agents:
             self._add(agent)
         self.interface = replace(self.interfaces[0], robots=2)
-        self._try_seeds()
 
     def _two_agents(self) -> list[Any]:
         agents = getattr(self._env, "possible_agents", None)
@@ -79,34 +77,20 @@ class ParallelProblem(PythonProblem):
         self._flatteners[agent] = flattener
         self._spaces[agent] = acted
 
-    def _try_seeds(self) -> None:
-        """Print a note if the same seed does not give the same start."""
-        starts = []
-        for _ in range(2):
-            raw, here = self._call(_start, "reset", self._env, self.agents, 0)
-            starts.append([self._seen(raw, agent, 0, 0) for agent in here])
-        alike = len(starts[0]) == len(starts[1]) and all(map(np.array_equal, *starts))
-        if not alike and multiprocessing.parent_process() is None:
-            print(
-                f"note: {self.name} starts differently from the same seed, so runs of it cannot "
-                "be repeated",
-                file=sys.stderr,
-            )
-
     def policy(self, config: PolicyConfig) -> Pair:
         return Pair(self.name, self.interfaces, config)
 
     def _episode(self, env, policy: Any, seed: int, episode: int, maxsteps: int):
         policy.reset(seed, episode)
         where = f"episode {episode} of seed {seed}"
-        start = (seed + episode) % 2**32
+        start = seed_libraries(seed, episode)
         raw, here = self._call(_start, f"reset of {where}", env, self.agents, start)
         sides = dict(zip(self.agents, policy.sides, strict=True))
         gone: set = set()
         rewards = dict.fromkeys(self.agents, 0.0)
         totals = rewards.copy()
         for step in range(1, self.steps(maxsteps) + 1):
-            seen = {a: self._seen(raw, a, seed, episode) for a in here}
+            seen = {a: self._seen(raw, a, seed, episode, step > 1) for a in here}
             acts = {a: sides[a].act(seen[a]) for a in here}
             given = {a: fitted(act, self._spaces[a]) for a, act in acts.items()}
             raw, paid, leaving = self._call(_step, f"step {step} of {where}", env, given)
@@ -128,23 +112,23 @@ class ParallelProblem(PythonProblem):
             if not here:
                 return
 
-    def _seen(self, raw: dict, agent: Any, seed: int, episode: int) -> np.ndarray:
+    def _seen(self, raw: dict, agent: Any, seed: int, episode: int, acted: bool) -> np.ndarray:
         if agent not in raw:
-            raise self.broken(f"no observation of {agent}", seed, episode)
-        return self._flat(self._flatteners[agent], raw[agent], seed, episode)
+            raise self.broken(f"no observation of {agent}", seed, episode, acted)
+        return self._flat(self._flatteners[agent], raw[agent], seed, episode, acted)
 
-    def _drawing(self):
-        return make_parallel(self.name, render_mode="rgb_array", **self._options)
+    def _make(self, **options):
+        return make_parallel(self.name, **(self._options | options))
 
 
 def _start(env, agents: list, seed: int) -> tuple[dict, list]:
     """Start an episode; return the observations, and the agents that take part."""
     given = env.reset(seed=seed)
     if not isinstance(given, tuple) or len(given) != 2:
-        raise TypeError("it gives no pair of observations and infos")
+        raise Wrong("it gives no pair of observations and infos")
     here = [agent for agent in agents if agent in env.agents]
     if agents and not here:
-        raise ValueError("no agent takes part")
+        raise Wrong("no agent takes part")
     return dict(given[0]), here
 
 
@@ -152,6 +136,6 @@ def _step(env, actions: dict) -> tuple[dict, dict, list]:
     """Let all act; return observations, rewards, and the agents whose episode has ended."""
     given = env.step(actions)
     if not isinstance(given, tuple) or len(given) != 5:
-        raise TypeError("it gives no five dicts, from observations to infos")
+        raise Wrong("it gives no five dicts, from observations to infos")
     observations, rewards, ended, cut, _ = given
     return dict(observations), dict(rewards), [a for a in actions if ended[a] or cut[a]]

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import sys
+import warnings
 from abc import abstractmethod
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+from hashlib import blake2b
 from typing import Any
 
 import numpy as np
@@ -12,20 +16,43 @@ from botschool import wrappers
 from botschool.errors import BotschoolError, said
 from botschool.inifile import shown
 from botschool.policies.policy import Policy
-from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
+from botschool.problems.base import Episodes, Interrupted, Outcome, Problem, say_unrepeatable
 from botschool.problems.transition import Transition
+from botschool.seeds import libraries_kept, seed_libraries
+
+LARGEST = 1e100
+"""Largest reward: sums of such rewards, and of their squares, are still numbers."""
+START = "reset must return two values, (observation, info), info a dict"
+STEP = "step must return five values, (observation, reward, terminated, truncated, info)"
+HINTS = {
+    "argument 'seed'": "write def reset(self, seed=None, options=None)",
+    "unpack": f"{START}; {STEP}",
+}
+"""Part of an exception's message -> what the environment must do instead."""
+PROBE = 987_654_321
+"""Seed of the episodes that show whether an environment repeats."""
+PROBED_STEPS, PROBED_EPISODES = 200, 16
+"""So many steps or episodes show it, with at most half of the steps in one episode."""
+
+
+class Wrong(TypeError):
+    """Raised for a value that an environment must not return."""
 
 
 class PythonProblem(Problem):
     """A problem whose environment is a Python object.
 
-    A subclass sets the attributes of `Problem`, `_env` and `made`, and plays an episode.
+    A subclass sets the attributes of `Problem` and `made`, makes environments, and plays an episode
+    in one. Before the first evaluation it shows whether its episodes repeat in one environment, or
+    in a new one each (docs/specification.md, "Fitness is a pure function").
     """
 
     native = False
+    fresh: bool | None = None
+    """Whether every episode gets a new environment; None: not known yet."""
     made: dict[str, Any]
     """The arguments of botschool.problems.make that make the same problem in a worker process."""
-    _env: Any
+    _env: Any = None
     _pool = None
 
     def evaluate(
@@ -44,6 +71,14 @@ class PythonProblem(Problem):
             if self._pool is None:
                 self._pool = Workers(self.made, policy.config, workers)
             return self._pool.evaluate(genotypes, normalisation, episodes, maxsteps, stopping)
+        if self.fresh is None and not self.settle(policy, stopping):
+            say_unrepeatable(self.name)
+        with libraries_kept():
+            return self._evaluate(policy, genotypes, normalisation, episodes, maxsteps, stopping)
+
+    def _evaluate(
+        self, policy: Any, genotypes, normalisation, episodes: Episodes, maxsteps: int, stopping
+    ) -> Outcome:
         n, size = len(episodes), self.interface.observations
         returns = np.zeros((n,) if self.constant_sum else (self.interface.robots, n))
         outcome = Outcome(returns, np.zeros(n, dtype=np.int32))
@@ -56,6 +91,8 @@ class PythonProblem(Problem):
             wanted = episodes.collect is not None and episodes.collect[i]
             moments = outcome.moments[i] if wanted else None
             seed, episode = int(episodes.seed[i]), int(episodes.episode[i])
+            if self.fresh:
+                self._renew()
             for transition in self._episode(self._env, policy, seed, episode, maxsteps):
                 returns[..., i] = transition.total if self.constant_sum else transition.totals
                 outcome.steps[i] = transition.step
@@ -74,15 +111,19 @@ class PythonProblem(Problem):
         maxsteps: int,
         render: bool = False,
     ) -> Iterator[Transition]:
-        if render and "rgb_array" not in (self._env.metadata.get("render_modes") or ()):
+        modes = self._metadata.get("render_modes") or self._metadata.get("render.modes") or ()
+        if render and "rgb_array" not in modes:
             raise self._unseen()
         policy.load(genotype, normalisation)
-        env = self._drawing() if render else self._env
+        if not render:
+            self._renew()
+        env = self._new(render_mode="rgb_array") if render else self._env
         try:
-            for transition in self._episode(env, policy, seed, episode, maxsteps):
-                if render:
-                    transition.frame = self._picture(env)
-                yield transition
+            with libraries_kept():
+                for transition in self._episode(env, policy, seed, episode, maxsteps):
+                    if render:
+                        transition.frame = self._picture(env)
+                    yield transition
         finally:
             if render:
                 env.close()
@@ -97,42 +138,121 @@ class PythonProblem(Problem):
             env = vars(env).get("env")
         return named
 
+    def settle(self, policy: Any, stopping: Callable[[], bool] = lambda: False) -> bool:
+        """Find out whether every episode needs a new environment; return whether episodes repeat.
+
+        Two environments play the same episodes, the second one in reverse: what an environment
+        keeps, and what its constructor draws, differs then. If anything differs, the same is tried
+        with a new environment for each episode.
+        """
+        steps = min(self.steps(policy.config.maxsteps), PROBED_STEPS // 2)
+        alike, fresh = True, False
+        with libraries_kept(), suppress(BotschoolError):  # the run meets the same fault and says it
+            for self.fresh in (False, True):
+                seen = self._probe(policy, range(PROBED_EPISODES), steps, PROBED_STEPS, stopping)
+                again = self._probe(policy, reversed(seen), steps, sys.maxsize, stopping)
+                alike = seen == again
+                if alike:
+                    fresh = self.fresh
+                    break
+        self.begin(fresh)
+        return alike
+
+    def begin(self, fresh: bool) -> None:
+        """Make the environment for evaluation; fresh: whether every episode gets a new one.
+
+        The first environment of a process can differ, because it imports modules that draw.
+        """
+        self.fresh = fresh
+        with suppress(BotschoolError):  # it cannot be made twice: the first one stays
+            self._renew()
+
+    def _probe(
+        self, policy: Any, numbers: Iterable[int], steps: int, most: int, stopping
+    ) -> dict[int, bytes]:
+        """Play these episodes, about `most` steps but two episodes at least; return digests."""
+        self._renew()
+        seen: dict[int, bytes] = {}
+        spent = 0
+        for number in numbers:
+            if stopping():
+                self.fresh = None
+                raise Interrupted
+            if spent >= most and len(seen) > 1:
+                break
+            if self.fresh and seen:
+                self._renew()
+            neutral = np.repeat([0.0, 1.0], self.interface.observations)
+            policy.load(policy.initial(PROBE, number), neutral if policy.config.normalize else None)
+            digest = blake2b()
+            for transition in self._episode(self._env, policy, PROBE, number, steps):
+                paid = transition.totals or transition.total
+                digest.update(transition.observation.tobytes() + repr(paid).encode())
+                spent += 1
+            seen[number] = digest.digest()
+        return seen
+
+    def _renew(self) -> None:
+        """Replace the environment by a new one."""
+        if self._env is not None:
+            with suppress(Exception):
+                self._env.close()
+        self._env = self._new()
+
+    def _new(self, **options: Any) -> Any:
+        """Return a new environment, which is the same in every process."""
+        with libraries_kept(), warnings.catch_warnings():
+            if self._env is not None:
+                warnings.simplefilter("ignore")  # the first one has warned
+            seed_libraries(0)
+            return self._make(**options)
+
+    @property
+    def _metadata(self) -> dict[str, Any]:
+        return getattr(self._env, "metadata", None) or {}
+
+    @abstractmethod
+    def _make(self, **options: Any) -> Any:
+        """Return a new environment; options: for its constructor, besides the experiment's."""
+
     @abstractmethod
     def _episode(
         self, env: Any, policy: Policy, seed: int, episode: int, maxsteps: int
     ) -> Iterator[Transition]:
         """Play an episode with the genotype that the policy has loaded."""
 
-    @abstractmethod
-    def _drawing(self) -> Any:
-        """Return a copy of the environment that draws."""
-
     def _call(self, method, where: str, *arguments, **options):
         try:
             return method(*arguments, **options)
+        except Wrong as error:
+            raise BotschoolError(
+                f"{self.name} does not work in {where} ({said(error)}): mend the environment."
+            ) from None
         except (Exception, SystemExit) as error:
+            hint = "".join(f"; {hint}" for part, hint in HINTS.items() if part in str(error))
             raise BotschoolError(
                 f"{self.name} raised {type(error).__name__} in {where} ({said(error)}): "
-                "mend the environment."
+                f"mend the environment{hint}."
             ) from error
 
-    def _flat(self, flattener, raw, seed: int, episode: int) -> np.ndarray:
+    def _flat(self, flattener, raw, seed: int, episode: int, acted: bool) -> np.ndarray:
         try:
             flat = flattener(raw)
-        except (TypeError, ValueError, LookupError):
+        except (TypeError, ValueError, LookupError, OverflowError):
             what = f"an observation {shown(raw)}, which its observation_space does not contain,"
-            raise self.broken(what, seed, episode) from None
+            raise self.broken(what, seed, episode, acted) from None
         if not np.isfinite(flat).all():
-            raise self.broken("an observation with NaN or infinity", seed, episode)
+            raise self.broken("an observation with NaN or infinity", seed, episode, acted)
         return flat
 
     def _number(self, reward, step: int, seed: int, episode: int) -> float:
         try:
             number = float(reward)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             number = np.nan
-        if not np.isfinite(number):
-            raise self.broken(f"a reward of {shown(reward)} at step {step}", seed, episode)
+        if not abs(number) <= LARGEST:
+            large = f" (above {LARGEST:g}: scale rewards down)" if abs(number) > LARGEST else ""
+            raise self.broken(f"a reward of {shown(reward)}{large} at step {step}", seed, episode)
         return number
 
     def _picture(self, env) -> np.ndarray:

@@ -17,7 +17,7 @@ import numpy as np
 
 from botschool.errors import BotschoolError
 from botschool.policies.hyperparameters import PolicyConfig
-from botschool.problems.base import Episodes, Interrupted, Outcome
+from botschool.problems.base import Episodes, Interrupted, Outcome, say_unrepeatable
 
 # Chunks per worker in a batch: enough to even out long episodes.
 CHUNKS = 10
@@ -38,6 +38,8 @@ class Workers:
         self._arguments = (made, config)
         self._workers = workers
         self._pool: ProcessPoolExecutor | None = None
+        self._fresh: bool | None = None
+        """What the first worker found out for all: see PythonProblem.fresh."""
 
     def evaluate(
         self,
@@ -83,6 +85,16 @@ class Workers:
                 initializer=_start,
                 initargs=self._arguments,
             )
+        if self._fresh is None:
+            with _unheard(signal.SIGINT):
+                settling = self._pool.submit(_settle)
+            while not wait([settling], timeout=0.2).done:
+                if stopping():
+                    self.close()
+                    raise Interrupted
+            self._fresh, repeats = settling.result()
+            if not repeats:
+                say_unrepeatable(self._name)
         running = {}
         for i, chunk in enumerate(chunks):
             if i in done:
@@ -93,7 +105,7 @@ class Workers:
             chosen.candidate = places.reshape(shape)
             with _unheard(signal.SIGINT):  # only the main process handles Ctrl-C
                 future = self._pool.submit(
-                    _evaluate, genotypes[used], normalisation, chosen, maxsteps
+                    _evaluate, self._fresh, genotypes[used], normalisation, chosen, maxsteps
                 )
             running[future] = i
         while running:
@@ -150,8 +162,24 @@ def _unheard(number: int) -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _evaluate(genotypes: np.ndarray, normalisation, episodes: Episodes, maxsteps: int) -> Outcome:
+def _made() -> tuple[Any, Any]:
     if isinstance(_worker, BotschoolError):
         raise _worker
-    problem, policy = _worker
+    assert _worker is not None
+    return _worker
+
+
+def _settle() -> tuple[bool, bool]:
+    """Return whether every episode gets a new environment, and whether episodes repeat."""
+    problem, policy = _made()
+    repeats = problem.settle(policy)
+    return problem.fresh, repeats
+
+
+def _evaluate(
+    fresh: bool, genotypes: np.ndarray, normalisation, episodes: Episodes, maxsteps: int
+) -> Outcome:
+    problem, policy = _made()
+    if problem.fresh is None:
+        problem.begin(fresh)
     return problem.evaluate(policy, genotypes, normalisation, episodes, maxsteps)

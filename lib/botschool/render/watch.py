@@ -13,6 +13,7 @@ from botschool import problems
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.npy import NotNumbers, read_numbers
+from botschool.problems.base import say_unrepeatable
 from botschool.problems.transition import Transition
 from botschool.seeds import POST_EVALUATION_SEED
 from botschool.terminal import has_display, readable
@@ -156,6 +157,15 @@ class PostEvaluation:
             self._robots(scene),
         )
 
+    def check(self) -> None:
+        """Say so if the first episode does not repeat; native problems always do."""
+        if self.fitness and not self.problem.native:
+            genotype, normalisation, number = self.cast(0)
+            robot = self.policy, genotype, normalisation
+            *_, again = self.problem.play(*robot, self.episodes_seed, number, self.maxsteps)
+            if again.total != self.fitness[0]:
+                say_unrepeatable(self.problem.name)
+
     def print_summary(self) -> None:
         """Print mean and standard deviation, of each side if it has a fitness of its own."""
         names = [f"{side}: " for side in self.problem.sides] if self.others else [""]
@@ -270,4 +280,5 @@ def watch(
                     step = f"step {transition.step}  reward {readable(transition.reward)}"
                     print(f"{step}  activations {values}")
     robot.print_summary()
+    robot.check()
     robot.problem.close()
