@@ -31,8 +31,8 @@ HINTS = {
 """Part of an exception's message -> what the environment must do instead."""
 PROBE = 987_654_321
 """Seed of the episodes that show whether an environment repeats."""
-PROBED_STEPS, PROBED_EPISODES = 200, 16
-"""So many steps or episodes show it, with at most half of the steps in one episode."""
+PROBED_STEPS, PROBED_EPISODES = 400, 16
+"""So many steps or episodes show it, with at most a quarter of the steps in one episode."""
 
 
 class Wrong(TypeError):
@@ -145,7 +145,7 @@ class PythonProblem(Problem):
         keeps, and what its constructor draws, differs then. If anything differs, the same is tried
         with a new environment for each episode.
         """
-        steps = min(self.steps(policy.config.maxsteps), PROBED_STEPS // 2)
+        steps = min(self.steps(policy.config.maxsteps), PROBED_STEPS // 4)
         alike, fresh = True, False
         with libraries_kept(), suppress(BotschoolError):  # the run meets the same fault and says it
             for self.fresh in (False, True):
@@ -170,7 +170,7 @@ class PythonProblem(Problem):
     def _probe(
         self, policy: Any, numbers: Iterable[int], steps: int, most: int, stopping
     ) -> dict[int, bytes]:
-        """Play these episodes, about `most` steps but two episodes at least; return digests."""
+        """Play these episodes, about `most` steps in all; return digests."""
         self._renew()
         seen: dict[int, bytes] = {}
         spent = 0
@@ -178,7 +178,7 @@ class PythonProblem(Problem):
             if stopping():
                 self.fresh = None
                 raise Interrupted
-            if spent >= most and len(seen) > 1:
+            if spent >= most:
                 break
             if self.fresh and seen:
                 self._renew()
