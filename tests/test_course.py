@@ -1,7 +1,6 @@
 """What exercises import keeps its names; a new exercise is two folders and nothing else."""
 
 import ast
-import importlib
 import re
 import runpy
 import shutil
@@ -41,20 +40,9 @@ from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import grade
 from botschool.grading.report.screen import Screen
 from botschool.grading.run import absent
-from botschool.moved import MOVED
 from running import call, environment_of_command
 
 ROOT = Path(__file__).parents[1]
-
-
-@pytest.mark.parametrize("name", MOVED)
-def test_modules_that_moved_keep_their_old_names(name):
-    """Files that users wrote earlier import these."""
-    old = importlib.import_module(f"botschool.{name}")
-    new = importlib.import_module(f"botschool.{MOVED[name]}")
-    public = {name for name in vars(new) if not name.startswith("_")}
-    assert public and all(getattr(old, each) is getattr(new, each) for each in public)
-    assert new.__spec__.name == f"botschool.{MOVED[name]}"
 
 
 @pytest.mark.parametrize("number", exercise_numbers(ROOT))

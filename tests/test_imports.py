@@ -8,7 +8,6 @@ import botschool
 PACKAGE = Path(botschool.__file__).parent
 
 LAYERS = (
-    {"moved"},
     {"errors", "npy", "sisters", "__init__"},
     {"_core", "paths", "terminal", "inifile", "output", "sandbox"},
     {"examples", "linear", "lock", "seeds", "wrappers"},
@@ -22,9 +21,9 @@ LAYERS = (
     {"cluster"},
     {"evolution"},
     {"render"},
-    {"envs", "page"},
+    {"envs"},
     {"rl"},
-    {"analysis"},
+    {"analysis", "page"},
     {"course", "grading.declare"},
     {"grading.packed", "grading.run"},
     {"grading.judge"},
@@ -34,7 +33,7 @@ LAYERS = (
     {"grading.classes"},
     {"grading"},
     {"labs.declare"},
-    {"labs", "page"},
+    {"labs"},
     {"cli"},
     {"__main__"},
 )
@@ -85,6 +84,10 @@ def unit(module: str) -> str:
 
 
 RANK = {name: rank for rank, units in enumerate(LAYERS) for name in units}
+
+
+def test_each_unit_is_named_once():
+    assert len(RANK) == sum(map(len, LAYERS))
 
 
 def test_every_module_has_a_layer():

@@ -91,7 +91,7 @@ def test_nothing_else_of_botschool_is_loaded():
     ).stdout.split()  # fmt: skip
     others = {name for name in loaded if name.startswith("botschool.")}
     alone = {name for name in others if not name.startswith("botschool.sandbox")}
-    assert alone == {"botschool.moved"}  # botschool/__init__.py itself
+    assert alone == set()
 
 
 # --- What a child tells of exceptions, and where it is when its time is up.
