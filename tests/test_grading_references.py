@@ -110,14 +110,14 @@ def test_a_mistake_of_its_own_is_said(graded):
     result = graded(BROKEN + SUMS.replace("1", "2 * (x > 0)") + LAST)
     assert [task.points for task in result.tasks] == [0, 0, 30]
     sentence, *_, end = result.tasks[1].message.splitlines()
-    assert sentence == "sums(6.5) returned 5.25, but 4.25 was expected."
+    assert sentence == "sums(6.5) returned 4.16667, but 4.25 was expected."
     assert end.endswith("With our solution in its place, it fails as well.")
     assert "tasks 3.1 (smaller) and 3.2 (sums), which do not" in result.tasks[2].message
     result = graded(BROKEN + SUMS.replace("1", "(x > 0)") + LAST)
     assert [task.points for task in result.tasks] == [0, 20, 30]
     note, sentence, *_ = result.tasks[1].message.splitlines()
     assert note.endswith("With our solution in its place, it still loses some of its points.")
-    assert sentence == "sums(0) returned 0, but 1 was expected."
+    assert sentence == "Then sums(0) is wrong."
 
 
 def test_what_is_not_done(graded):
@@ -159,7 +159,7 @@ def test_what_a_hostile_submission_can_take_from_it(graded, server, tmp_path):
     """Our function of the same task is not there; what it finds of others gets nowhere."""
     references = {"source": pruned(SOLUTION, {"3.1"}), "names": ["smaller"]}
     student = Student(submit(tmp_path / "real", HOSTILE), server=server, references=references)
-    with contextlib.closing(student), pytest.raises(Wrong, match=r"raised ValueError\n"):
+    with contextlib.closing(student), pytest.raises(Wrong, match="raised ValueError"):
         student.call("sums", 6.5)
     assert student.printed == "['LEAKEDsmaller_marks']\n"  # so the attack is a real one
     result = graded(HOSTILE)
@@ -168,6 +168,47 @@ def test_what_a_hostile_submission_can_take_from_it(graded, server, tmp_path):
         assert "LEAKED" not in task.message + task.printed
         assert not task.pictures
     assert "FileNotFoundError" in result.tasks[2].message
+
+
+FOUND = """
+import gc, inspect, numpy
+def smaller(x): return 0
+def found():
+    for each in gc.get_objects():
+        if inspect.isfunction(each) and "smaller_marks_our_own_first" in each.__code__.co_varnames:
+            return "smaller_marks_our_own_first"
+    return "nothing"
+class Odd: pass
+def sums(x):
+    return {}
+def last(x):
+    print(found())
+    return sums(x)
+"""
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [
+        "found()",
+        "[found(), 1.5]",
+        "{found(): 1}",
+        "[ord(letter) for letter in found()]",
+        "numpy.array([ord(letter) for letter in found()])",
+        "int.from_bytes(found()[:8].encode(), 'big')",
+        "(_ for _ in ()).throw(KeyError(found()))",
+        "type(found(), (), {})()",
+        "__import__(found())",
+        "Odd().smaller_marks if found() == 'nothing' else getattr(Odd(), found())",
+    ],
+)
+def test_no_answer_tells_what_our_functions_are(graded, answer):
+    letters = "smaller_marks_our_own_first"
+    hidden = [letters, "115, 109", "[115. 109", str(int.from_bytes(letters[:8].encode(), "big"))]
+    result = graded(FOUND.replace("{}", answer, 1))
+    for task in result.tasks:
+        told = task.message + task.printed
+        assert task.points == 0 and not [each for each in hidden if each in told], told
 
 
 def test_only_what_is_needed_is_there():

@@ -2,7 +2,7 @@
 
 Stochastic checks (task 3.7), each with two seeds (a third one if just one of them is good enough)
 and 20 unseen episodes a controller, on robots whose parameters count with gains drawn in secret
-(botschool.course.rewiring). Margins are those of 20 seeds, each with gains of its own:
+(botschool.grading.run.rewiring). Margins are those of 20 seeds, each with gains of its own:
 
 - CartPole-v0 needs a mean of at least 195. The solution reaches 200.0 with each (margin 5 steps).
   Of random controllers 3 % reach it too, so this part can also be had by luck.
@@ -981,16 +981,12 @@ def a_single_replication(student: Student):
 training = exercise.task("3.7", "CartPole and Pendulum", seconds=90, needs=("3.1", "3.2", "3.4"))
 
 
-def trained(module, environment, seed, gains):
-    """Trains where each parameter of the robot counts with a gain; notes what is evaluated."""
-    import numpy
+def trained(module, ask, environment, seed, size):
+    """Trains with a robot of the grader, whose parameters count with gains."""
+    from botschool.grading.run.rewiring import asking
 
-    from botschool.course.rewiring import recorded, rewired
-
-    with rewired(gains), recorded() as evaluated:
-        parameters = module.train(environment, seed)
-    found = numpy.ravel(numpy.asarray(parameters, dtype=float))
-    return [parameters, len(evaluated), evaluated.nearest(found), evaluated.last(100)]
+    with asking(environment, size, ask):
+        return module.train(environment, seed)
 
 
 class Trained:
@@ -999,23 +995,22 @@ class Trained:
     def __init__(self, student: Student, environment: str, index: int, gains: np.ndarray) -> None:
         seed, robot = exercise.seed(index) % 100_000, Robot(environment)
         self.said = f"train({environment!r}, seed={seed})"
-        found = student.run(trained, environment, seed, gains, said=self.said)
-        expect(isinstance(found, list) and len(found) == 4, f"{self.said} gave no answers.")
-        answer, self.many, nearest, last = found
-        self.parameters = expect_array(self.said, answer, (robot.nbiases + robot.nweights,))
-        self.last = np.asarray(last, dtype=float)[:500]
+        size, own = robot.nbiases + robot.nweights, {"environment": environment, "gains": gains}
+        answer = student.run(trained, environment, seed, size, said=self.said, robot=own)
+        self.parameters = expect_array(self.said, answer, (size,))
+        evaluated = student.rewired
+        self.many, self.last = len(evaluated), evaluated.last(100)[:500]
         self._robot, self._gains = robot, gains
-        self.was_evaluated = bool(
-            np.shape(nearest) == self.parameters.shape
-            and np.allclose(nearest, self.parameters, rtol=1e-5, atol=1e-5)
+        nearest = evaluated.nearest(self.parameters)
+        self.was_evaluated = nearest is not None and bool(
+            np.allclose(nearest, self.parameters, rtol=1e-5, atol=1e-5)
         )
         self._episodes = exercise.seed(index + 10)
         self.mean = float(self._means(self.parameters[None])[0])
 
     def another_reaches(self, wanted: float) -> bool:
         """Whether another of the last candidates is good enough in the same episodes."""
-        fits = self.last.ndim == 2 and self.last.shape[1] == len(self.parameters)
-        return fits and bool((self._means(self.last) >= wanted).any())
+        return bool((self._means(self.last) >= wanted).any())
 
     def _means(self, candidates: np.ndarray) -> np.ndarray:
         return self._robot.evaluate(candidates * self._gains, self._episodes, episodes=20)

@@ -528,16 +528,12 @@ def keeps_the_best_as_they_were(student: Student):
 three = exercise.task("7.6", "Three stages", seconds=60, needs=("7.5",))
 
 
-def evolved(module, seed, gains):
-    """Three stages where parameters count with gains, and the candidates nearest to them."""
-    import numpy
+def evolved(module, ask, seed, size):
+    """Three stages of a robot of the grader, whose parameters count with gains."""
+    from botschool.grading.run.rewiring import asking
 
-    from botschool.course.rewiring import recorded, rewired
-
-    with rewired(gains), recorded() as evaluated:
-        stages = module.three_stages(seed)
-    rows = numpy.asarray(stages, dtype=float).reshape(-1, len(gains))[:3]
-    return [stages, [evaluated.nearest(row) for row in rows], evaluated.first(100)]
+    with asking("Pendulum-v1", size, ask):
+        return module.three_stages(seed)
 
 
 EVOLVED: WeakKeyDictionary[Student, dict[tuple, tuple[np.ndarray, np.ndarray]]] = (
@@ -561,16 +557,17 @@ def stages_for(student: Student, seed: int, gains: np.ndarray) -> tuple[np.ndarr
 
 def evolve(student: Student, seed: int, gains: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """As stages_for, but the student evolves them now."""
-    answer = student.run(evolved, seed, gains, said=f"three_stages(seed={seed})")
-    expect(isinstance(answer, list) and len(answer) == 3, f"{student.said} gave no answers.")
-    parameters = expect_array(student.said, answer[0], (3, len(gains)))
-    for name, row, near in zip(("first", "middle", "last"), parameters, answer[1], strict=True):
+    said, robot = f"three_stages(seed={seed})", {"environment": "Pendulum-v1", "gains": gains}
+    answer = student.run(evolved, seed, len(gains), said=said, robot=robot)
+    parameters = expect_array(student.said, answer, (3, len(gains)))
+    for name, row in zip(("first", "middle", "last"), parameters, strict=True):
+        near = student.rewired.nearest(row)
         expect(
-            np.shape(near) == row.shape and np.allclose(near, row, rtol=1e-5, atol=1e-5),
+            near is not None and np.allclose(near, row, rtol=1e-5, atol=1e-5),
             f"{student.said}: the {name} stage was never evaluated. Return candidates of your "
             "evolution exactly as they were evaluated.",
         )
-    early = expect_array(student.said, answer[2], np.shape(answer[2]))
+    early = student.rewired.first(100)
     begins = [np.isclose(early, row, rtol=1e-5, atol=1e-5).all(axis=1).any() for row in parameters]
     expect(
         bool(begins[0] or not begins[2]),

@@ -9,6 +9,7 @@ of three seeds of the grader's): CartPole-v0 at least 195, Pendulum-v1 at least 
 the solution reaches 200 of 200 with every one, and -215 to -145.
 """
 
+from dataclasses import dataclass
 from functools import cache, partial
 
 import numpy as np
@@ -52,6 +53,7 @@ from botschool.grading import (
     slips,
 )
 from botschool.grading.declare.libraries import OPENAI_ES
+from botschool.grading.run.rewiring import FEW_CALLS
 
 exercise = Exercise(8, "OpenAI-ES", file="openai_es.py")
 SIZES = ((1, 1), (3, 2), (20, 37))
@@ -604,63 +606,60 @@ steps, restarts, plain gradient ascent): 0.92 to 1."""
 BEGINNING = 8
 
 
-def trained(module, environment, seed, signs, least):
-    """The student's centre, and evidence of how it was found.
+def trained(module, ask, environment, seed, size):
+    """The student's centre, evolved on a robot of the grader, whose parameters have secret signs.
 
-    In between, each parameter reaches the network with a sign of its own: OpenAI-ES does not notice
-    this, as its samples are as often positive as negative. Evidence: all candidates with their
-    fitness, and the first candidates (BEGINNING of them, and of three calls, at least) of this
-    training, of another one with this seed and of one with the next. Then the seed and the episodes
-    of each call.
+    OpenAI-ES does not notice this, as its samples are as often positive as negative.
     """
-    import contextlib
+    from botschool.grading.run.rewiring import asking
 
-    import numpy
+    with asking(environment, size, ask):
+        return module.train(environment, seed=seed)
 
-    from botschool.course import evaluation
-    from botschool.course.rewiring import rewired
 
-    robot, rows, scores, begun, calls, asked = evaluation.Robot, [], [], [[]], [0], []
-    kept = robot.evaluate
+def in_pairs(candidates: np.ndarray, fitness: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """A call's candidates and their fitness, the two sides of each sample beside each other."""
+    half = len(candidates) // 2
+    if len(candidates) == 2 * half and half > 1:  # all on one side, then all on the other
+        middles = (candidates[:half] + candidates[half:]) / 2
+        if np.allclose(middles, middles[0], atol=1e-6):
+            order = np.arange(2 * half).reshape(2, half).T.ravel()
+            return candidates[order], fitness[order]
+    return candidates, fitness
 
-    class EnoughSeen(BaseException):
-        pass
 
-    def evaluate(self, population, *arguments, **options):
-        found = numpy.array(population, dtype=float)
-        begins = calls[-1] < 3 or len(begun[-1]) < least
-        if not begins and len(begun) > 1:
-            raise EnoughSeen
-        fitness = kept(self, population, *arguments, **options)
-        order, half = numpy.arange(len(found)), len(found) // 2
-        if len(found) == 2 * half and half > 1:  # all on one side, then all on the other
-            middles = (found[:half] + found[half:]) / 2
-            if numpy.allclose(middles, middles[0], atol=1e-6):
-                order = order.reshape(2, half).T.ravel()
-        if begins:
-            begun[-1].extend(found[order])
-            calls[-1] += 1
-        if len(begun) == 1:
-            given = dict(zip(("seed", "episodes"), arguments, strict=False)) | options
-            asked.append([float(given["seed"]), float(given.get("episodes", 5))])
-            rows.extend(found[order])
-            scores.extend(numpy.array(fitness, dtype=float)[order])
-        return fitness
+@dataclass
+class Evidence:
+    """How a training found its centre: all that the grader's robot evaluated for it."""
 
-    robot.evaluate = evaluate
-    try:
-        with rewired(signs):
-            centre = module.train(environment, seed=seed)
-            for other in (seed, seed + 1):
-                begun.append([])
-                calls.append(0)
-                with contextlib.suppress(EnoughSeen):
-                    module.train(environment, seed=other)
-    finally:
-        robot.evaluate = kept
-    beginnings = [numpy.array(each) for each in begun]
-    rows = numpy.array(rows, dtype=numpy.float64 if len(rows) <= 100_000 else numpy.float32)
-    return [centre, rows, numpy.array(scores), *beginnings, numpy.array(asked)]
+    centre: object
+    """What train returned."""
+    rows: np.ndarray
+    scores: np.ndarray
+    """All candidates, and their fitness."""
+    first: np.ndarray
+    again: np.ndarray
+    other: np.ndarray
+    """The first candidates of this training, of another one with its seed, of one with the next."""
+    calls: np.ndarray
+    """Seed and episodes of each call."""
+
+
+def evidence(student: Student, environment: str, seed: int, signs: np.ndarray) -> Evidence:
+    """Trains three times in one process; the latter two are broken off after a few candidates."""
+    answers, records, beginnings = [], [], []
+    for each, enough in ((seed, 0), (seed, BEGINNING), (seed + 1, BEGINNING)):
+        robot = {"environment": environment, "gains": signs, "enough": enough}
+        call = (trained, environment, each, len(signs))
+        answers.append(student.run(*call, said=f"train({environment!r}, seed={each})", robot=robot))
+        none = np.empty((0, len(signs))), np.empty(0)
+        pairs = [none, *(in_pairs(*one) for one in student.rewired.calls)]
+        records.append([np.concatenate(part).astype(float) for part in zip(*pairs, strict=True)])
+        begun = sum(len(rows) for rows, _ in pairs[: FEW_CALLS + 1])
+        beginnings.append(records[-1][0][: max(BEGINNING, begun)])
+        if not enough:
+            calls = np.array(student.rewired.asked, dtype=float)
+    return Evidence(answers[0], *records[0], *beginnings, calls)
 
 
 def generations_of(rows: np.ndarray, scores: np.ndarray) -> list[tuple]:
@@ -744,11 +743,10 @@ def expect_mean(student: Student, environment: str, index: int, goal: float, wha
     while len(tried) < 3:
         tried.append(exercise.seed(index + 200 * len(means)) % 100_000)
         said = f"train({environment!r}, seed={tried[-1]})"
-        answer = student.run(trained, environment, tried[-1], signs, BEGINNING, said=said)
-        expect(isinstance(answer, list) and len(answer) == 7, f"{said} gave no answer.")
-        if isinstance(answer[0], dict) and "centre" in answer[0]:
+        found = evidence(student, environment, tried[-1], signs)
+        if isinstance(found.centre, dict) and "centre" in found.centre:
             expect(False, f"{said} returned a dict, not an array: return its 'centre'.")
-        centre = expect_array(said, answer[0], (size,))
+        centre = expect_array(said, found.centre, (size,))
         means.append(mean_of(signs * centre))
         expect(
             means[-1] >= goal or mean_of(centre) < goal,
@@ -756,18 +754,15 @@ def expect_mean(student: Student, environment: str, index: int, goal: float, wha
             "but not with the signs that robot.evaluate gave to them while train ran. A centre "
             "that is evolved in train, by the fitness from robot.evaluate, should fit these signs.",
         )
-        rows, scores, first, again, other, calls = (
-            np.asarray(each, dtype=float) for each in answer[1:]
-        )
-        usual = rows.ndim == 2 and rows.shape == (len(scores), size) and len(scores) > 3
-        generations = generations_of(rows, scores) if usual else []
+        rows = found.rows
+        generations = generations_of(rows, found.scores) if len(rows) > 3 else []
         share, start = explained(generations, centre) if generations else (0.0, centre)
         # of CartPole's random centres, 4 of 100 can do it by luck: then another seed decides
         lucky = share > EXPLAINED and mean_of(signs * start) >= goal
         luck += lucky
         if means[-1] >= goal and not lucky:
             break
-    why = partial(why_untrained, rows, generations, centre, share, calls, robot.nbiases, goal)
+    why = partial(why_untrained, rows, generations, centre, share, found.calls, robot.nbiases, goal)
     results = f"With the three seeds {tried}, the means are {np.round(means, 1).tolist()}"
     by_luck = (
         "a seed does not count if the centre from which the generations begin reaches the goal "
@@ -790,13 +785,14 @@ def expect_mean(student: Student, environment: str, index: int, goal: float, wha
             f"{said} returned a candidate, centre + noiseStdDev * sample or centre - "
             "noiseStdDev * sample. Return a centre: the steps of the algorithm lead to it.",
         )
-    found = f"{said}: the controller reaches the goal, but should be evolved by OpenAI-ES."
-    expect(bool(generations), f"{found} {why()}")
+    reached = f"{said}: the controller reaches the goal, but should be evolved by OpenAI-ES."
+    expect(bool(generations), f"{reached} {why()}")
     expect(
         share > EXPLAINED and not lucky,
-        f"{found} The gradients of the pairs of candidates that were evaluated should lead to it "
+        f"{reached} The gradients of the pairs of candidates that were evaluated should lead to it "
         "from a centre that does not reach the goal yet.",
     )
+    first, again, other = found.first, found.again, found.other
     expect(
         len(again) > 0 and len(other) > 0,
         f"{said} evolves a centre, but a call of train after it returns without any call of "

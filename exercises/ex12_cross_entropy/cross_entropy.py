@@ -151,7 +151,7 @@ def cross_entropy(scores: torch.Tensor, actions: torch.Tensor) -> torch.Tensor:
 
     scores has the shape (N, actions); actions, shape (N,), holds whole numbers from 0. Write it
     with torch's functions, but without those that are the answer: cross_entropy, nll_loss,
-    log_softmax (also torch.log_softmax and that of tensors) and the log_prob of distributions are
+    log_softmax (also torch.log_softmax and that of tensors) and torch's distributions are
     refused. As in task 12.1, scores may be large.
     """
     raise NotImplementedError("task 12.5: measure the surprise")
@@ -210,8 +210,8 @@ def gaussian_loss(
 ) -> torch.Tensor:
     """The loss by the formula above, a tensor of shape ().
 
-    means and actions have the shape (N, actuators), log_deviation has (actuators,). The log_prob of
-    torch's distributions and gaussian_nll_loss are refused.
+    means and actions have the shape (N, actuators), log_deviation has (actuators,). Torch's
+    distributions and gaussian_nll_loss are refused.
     """
     raise NotImplementedError("task 12.7: measure the surprise in continuous actions")
 

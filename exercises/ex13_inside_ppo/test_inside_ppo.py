@@ -18,6 +18,7 @@ from botschool.grading.declare.libraries import (
     ADVANTAGES,
     ENTROPY,
     EXPLAINED_VARIANCE,
+    PPO_LOOP,
     UPDATES_MADE,
 )
 
@@ -738,7 +739,7 @@ def what_never_changes(student: Student):
 
 
 # ------------------------------------------------------------------- 13.8
-looping = exercise.task("13.8", "Your own loop", needs=("13.1", "13.5"))
+looping = exercise.task("13.8", "Your own loop", needs=("13.1", "13.5"), refused=PPO_LOOP)
 LENGTHS, SEEDS = (6_144, 24_576), 5
 AS_GOOD = (0.3, 0.5)
 """Share of the reference's mean return that the loop must reach after each of LENGTHS.

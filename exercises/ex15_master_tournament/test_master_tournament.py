@@ -41,10 +41,7 @@ from botschool.grading import (
 exercise = Exercise(15, "The master tournament", file="master_tournament.py")
 PARAMETERS, UNITS, INPUTS = 4977, 25, 24
 EXACT = 1e-9
-TOOL = tuple(
-    f"botschool.analysis.tournament:{name}"
-    for name in ("summarised", "interval", "historical_progress", "global_progress", "progress")
-)
+TOOL = ("botschool.analysis.tournament",)
 """What the tool's own tournament has for tasks 15.3, 15.5 and 15.7."""
 
 

@@ -64,7 +64,7 @@ class Network(nn.Module):
 # %% [markdown]
 # ## Task 11.2. The gradient by hand
 #
-# No torch here (its `backward` is refused), only NumPy and the formulas of `README.md`; differences
+# No torch here (it is refused), only NumPy and the formulas of `README.md`; differences
 # of the loss, (L(w + h) - L(w)) / h, are not exact enough. X holds the inputs (n rows), T the
 # targets (m columns). Forward:
 #

@@ -113,3 +113,18 @@ def hostile() -> dict[str, str]:
     found = [section for path in paths for section in sections(path)]
     assert len(dict(found)) == len(found), "two hostile submissions have one name"
     return dict(found)
+
+
+def unearned() -> list[tuple[str, str, str]]:
+    """Return (task, name, code) of each way to an answer in hostile/tasks.
+
+    A section's line has its name and its tasks. All sections of a file begin with what stands
+    above the first one.
+    """
+    found = []
+    for path in sorted((HERE / "hostile" / "tasks").glob("ex*.py")):
+        shared = re.split(r"^# ?%%", path.read_text(encoding="utf-8"), flags=re.MULTILINE)[0]
+        for head, code in sections(path):
+            name, *tasks = head.split()
+            found += [(task, name, f"{shared}\n{code}") for task in tasks]
+    return found

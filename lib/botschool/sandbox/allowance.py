@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 
 from botschool.sandbox import usage
+
+LOOK_SECONDS = 0.02
+"""Seconds between two looks at what a process has used."""
 
 
 class Allowance:
@@ -45,26 +48,55 @@ class Allowance:
         return self.processor < self.active / 2
 
     @contextmanager
-    def charged(self, pid: int) -> Iterator[Callable[[], float]]:
-        """Charge a process's use in the block; yield a function that returns the seconds left."""
-        before = self.processor, self.active, self.passed
-        asked, elapsed = time.monotonic(), 0.0
-        processor, delayed = usage.processor_seconds(pid), usage.delayed_seconds(pid)
-
-        def left() -> float:
-            nonlocal asked, elapsed
-            now = time.monotonic()
-            elapsed += min(now - asked, self.PAUSE)
-            asked = now
-            used = elapsed if processor is None else usage.processor_seconds(pid)
-            self.passed = before[2] + elapsed
-            if used is not None:  # else the process has ended
-                delay = max(0.0, usage.delayed_seconds(pid) - delayed)
-                self.processor = before[0] + used - (processor or 0.0)
-                self.active = before[1] + max(0.0, elapsed - delay)
-            return self.left
-
+    def charged(self, pid: int) -> Iterator[Charge]:
+        """Charge a process's use in the block; yield what returns the seconds left."""
+        charge = Charge(self, pid)
         try:
-            yield left
+            yield charge
         finally:
-            left()
+            charge.look()
+
+
+class Charge:
+    """Charges a process's use; called, it returns the seconds left."""
+
+    def __init__(self, allowance: Allowance, pid: int) -> None:
+        self._allowance, self._pid = allowance, pid
+        self._before = allowance.processor, allowance.active, allowance.passed
+        self._helped = 0.0
+        self._elapsed, self._asked, self._looked = 0.0, time.monotonic(), time.monotonic()
+        self._processor = usage.processor_seconds(pid)
+        self._delayed = usage.delayed_seconds(pid)
+
+    def __call__(self) -> float:
+        if time.monotonic() - self._looked > LOOK_SECONDS:
+            self.look()
+        return self._allowance.left
+
+    def look(self) -> None:
+        """See what the process has used."""
+        allowance, before = self._allowance, self._before
+        self._looked = now = time.monotonic()
+        self._elapsed += min(now - self._asked, allowance.PAUSE)
+        self._asked = now
+        used = usage.processor_seconds(self._pid)
+        if self._processor is None:
+            used = self._elapsed
+        allowance.passed = before[2] + self._elapsed
+        if used is not None:  # else the process has ended
+            delay = max(0.0, usage.delayed_seconds(self._pid) - self._delayed)
+            allowance.processor = before[0] + used - (self._processor or 0.0) + self._helped
+            allowance.active = before[1] + max(0.0, self._elapsed - delay)
+
+    @contextmanager
+    def helping(self) -> Iterator[None]:
+        """Charge the processor time of this thread in the block, and not the time that passes."""
+        self._elapsed += min(time.monotonic() - self._asked, self._allowance.PAUSE)
+        start = time.thread_time()
+        try:
+            yield
+        finally:
+            spent = time.thread_time() - start
+            self._helped += spent
+            self._elapsed += spent
+            self._asked = time.monotonic()

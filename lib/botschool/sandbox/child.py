@@ -33,26 +33,54 @@ def load(path: Path) -> Any:
     return module
 
 
-def run(module: Any, request: dict[str, Any]) -> Any:
+class Pipes:
+    """The pipes to and from the caller."""
+
+    def __init__(self, requests: int, answers: int) -> None:
+        self._requests, self._answers = requests, answers
+
+    def receive(self) -> bytes | None:
+        """Return the next packed request; None if the caller has ended."""
+        return protocol.receive(self._requests, WAIT)
+
+    def send(self, answer: bytes) -> None:
+        """Write a packed answer."""
+        while answer:
+            answer = answer[os.write(self._answers, answer) :]
+
+    def ask(self, question: Any) -> Any:
+        """Ask the caller, who is waiting for an answer, and return what it says."""
+        self.send(protocol.pack({"asks": question}))
+        return protocol.unpack(self.receive() or b"")
+
+
+def called(driver: str, name: str, *arguments: Any) -> Any:
+    """Call a function that was sent as source."""
+    names: dict[str, Any] = {}
+    exec(compile(driver, "<driver>", "exec"), names)
+    return names[name](*arguments)
+
+
+def run(module: Any, request: dict[str, Any], pipes: Pipes) -> Any:
     """Call a function of the untrusted module, or a driver with it; return the result.
 
-    request: {"name", "arguments", "options"}, or {"driver": source, "name", "arguments"}.
+    request: {"name", "arguments", "options"}, or {"driver": source, "name", "arguments"}. With
+    "asks", the driver's second argument is a function that asks the caller.
     """
     if "driver" in request:
-        names: dict[str, Any] = {}
-        exec(compile(request["driver"], "<driver>", "exec"), names)
-        return names[request["name"]](module, *request["arguments"])
+        given = [module, pipes.ask] if request.get("asks") else [module]
+        return called(request["driver"], request["name"], *given, *request["arguments"])
     function = getattr(module, request["name"], None)
     if function is None:
         raise Missing(request["name"], module)
     return function(*request["arguments"], **request["options"])
 
 
-def run_twice(module: Any, message: bytes) -> dict[str, Any]:
+def run_twice(module: Any, message: bytes, pipes: Pipes) -> dict[str, Any]:
     """Return the answers to two copies of a request, and the first copy's final arguments."""
     first, second = protocol.unpack(message), protocol.unpack(message)
-    answers = [run(module, first)]
-    return {"answers": [*answers, run(module, second)], "arguments": first["arguments"]}
+    answers = [run(module, first, pipes)]
+    return {"answers": [*answers, run(module, second, pipes)], "arguments": first["arguments"]}
 
 
 def changed_arguments(request: dict[str, Any], message: bytes) -> list[int]:
@@ -89,13 +117,13 @@ def substitute(module: Any, references: dict[str, Any]) -> None:
         setattr(module, name, other[name])
 
 
-def answer_to(module: Any, message: bytes, file: Path) -> bytes:
+def answer_to(module: Any, message: bytes, file: Path, pipes: Pipes) -> bytes:
     """Return the packed answer to a packed request; any exception becomes an answer, too."""
     try:
         request = protocol.unpack(message)
         if request.get("twice"):
-            return protocol.pack({"value": run_twice(module, message)})
-        answer = {"value": run(module, request)}
+            return protocol.pack({"value": run_twice(module, message, pipes)})
+        answer = {"value": run(module, request, pipes)}
         if "driver" not in request:
             answer["changed"] = changed_arguments(request, message)
         return protocol.pack(answer)
@@ -117,7 +145,8 @@ def serve(requests: int, answers: int) -> None:
 
     requests, answers: file descriptors of pipes.
     """
-    set_up = protocol.unpack(protocol.receive(requests, WAIT))
+    pipes = Pipes(requests, answers)
+    set_up = protocol.unpack(pipes.receive())
     file = Path(set_up["file"])
     os.environ.update(set_up["environment"])
     tempfile.tempdir = None
@@ -125,26 +154,30 @@ def serve(requests: int, answers: int) -> None:
     if "torch" in sys.modules:
         sys.modules["torch"].seed()
     confine.limit(set_up["seconds"], set_up["memory"], set_up["file_size"])
-    missing = confine.confine(
-        [Path(path) for path in set_up["readable"]], [Path(path) for path in set_up["writable"]]
-    )
-    os.write(answers, protocol.pack({"missing": missing}))
+    # nothing untrusted has run yet
+    prepared = called(*set_up["prepare"]) if set_up["prepare"] else None
+    references = set_up["references"]
+    places = ("readable", "listed", "writable")
+    missing = confine.confine(*([Path(path) for path in set_up[each]] for each in places))
+    del set_up
+    pipes.send(protocol.pack({"missing": missing}))
     # on this signal, Python writes where the program is, for Child.where
     faulthandler.register(signal.SIGUSR1, answers, all_threads=True)
     module = failure = None
-    while (message := protocol.receive(requests, WAIT)) is not None:
+    while (message := pipes.receive()) is not None:
         if module is None and failure is None:
             try:
                 module = load(file)
-                if set_up["references"]:
-                    substitute(module, set_up["references"])
+                if references:
+                    substitute(module, references)
+                if prepared is not None:
+                    prepared()
             except BaseException as error:
                 failure = _explained(error, file, loading=True)
-        answer = failure or answer_to(module, message, file)
+        answer = failure or answer_to(module, message, file, pipes)
         for stream in (sys.stdout, sys.stderr):
             try:
                 stream.flush()
             except BaseException:  # the untrusted code has closed or replaced the stream
                 continue
-        while answer:
-            answer = answer[os.write(answers, answer) :]
+        pipes.send(answer)

@@ -21,6 +21,7 @@ from botschool.sandbox import seccomp
 # see linux/landlock.h
 _LANDLOCK_CREATE, _LANDLOCK_ADD, _LANDLOCK_RESTRICT = 444, 445, 446
 _READ = 0b1101  # execute, read file, read directory
+_LIST = 0b1000  # read directory
 _ON_FILES = 0b1100_0000_0000_0111  # rights that apply to a file
 _NEVER = 0b1000_1010_0100_0000  # device nodes, sockets, control of devices
 _RIGHTS_OF_VERSION = {1: 13, 2: 14, 3: 15, 4: 15, 5: 16}
@@ -75,9 +76,10 @@ def end_with(parent: int) -> None:
             os._exit(1)
 
 
-def confine(readable: list[Path], writable: list[Path]) -> list[str]:
+def confine(readable: list[Path], listed: list[Path], writable: list[Path]) -> list[str]:
     """Confine files and system calls; return what this system cannot confine.
 
+    listed: folders whose names, but not files, can be read, down to the last folder.
     That is a list of some of "files", "processes", "network".
     """
     everything = ["files", "processes", "network"]
@@ -88,7 +90,7 @@ def confine(readable: list[Path], writable: list[Path]) -> list[str]:
     libc.syscall.restype = ctypes.c_long
     if libc.prctl(_PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0:
         return everything
-    missing = [] if _landlock(libc, readable, writable) else ["files"]
+    missing = [] if _landlock(libc, readable, listed, writable) else ["files"]
     _drop_capabilities(libc)
     code = seccomp.program(platform.machine(), os.getpid())
     if code is None or not seccomp.install(libc, code):
@@ -107,7 +109,9 @@ def _drop_capabilities(libc: ctypes.CDLL) -> None:
     libc.capset(header, struct.pack("6I", keep, keep, 0, 0, 0, 0))
 
 
-def _landlock(libc: ctypes.CDLL, readable: list[Path], writable: list[Path]) -> bool:
+def _landlock(
+    libc: ctypes.CDLL, readable: list[Path], listed: list[Path], writable: list[Path]
+) -> bool:
     version = libc.syscall(_LANDLOCK_CREATE, None, 0, 1)
     if version < 1:
         return False
@@ -120,7 +124,8 @@ def _landlock(libc: ctypes.CDLL, readable: list[Path], writable: list[Path]) -> 
     rules = libc.syscall(_LANDLOCK_CREATE, attributes, len(attributes), 0)
     if rules < 0:
         return False
-    for paths, access in ((readable, _READ), (writable, handled & ~_NEVER)):
+    given = (readable, _READ), (listed, _LIST), (writable, handled & ~_NEVER)
+    for paths, access in given:
         for path in paths:
             try:
                 fd = os.open(path, os.O_PATH | os.O_CLOEXEC)

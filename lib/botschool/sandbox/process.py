@@ -7,7 +7,7 @@ import os
 import re
 import signal
 import threading
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -54,12 +54,17 @@ class Child:
         limits: Limits,
         readable: Iterable[Path] = (),
         references: dict[str, Any] | None = None,
+        prepare: list[Any] | None = None,
+        listed: Iterable[Path] = (),
     ) -> None:
         """Start the process.
 
         file: the name of the untrusted file in the scratch folder.
         readable: files and folders that it may read.
         references: {"source", "names"}: functions that replace the file's own ones.
+        prepare: source of a function, its name and its arguments, called before the process is
+        confined and the file is loaded; it returns a function to call afterwards.
+        listed: folders in which it may read names, also of files that are closed.
         Raises SandboxError.
         """
         self._server = server
@@ -86,21 +91,23 @@ class Child:
                 os.close(fd)
         self._drains = threading.Thread(target=self._drain, daemon=True)
         self._drains.start()
-        self.missing = self._set_up(file, limits, readable, references)
+        self.missing = self._set_up(
+            limits,
+            file=str(scratch.folder / file),
+            readable=[str(path) for path in readable],
+            listed=[str(path) for path in listed],
+            references=references,
+            prepare=prepare,
+        )
         """What this system cannot confine: some of "files", "processes", "network"."""
         threading.Thread(target=self._look, daemon=True).start()
 
-    def _set_up(
-        self, file: str, limits: Limits, readable: Iterable[Path], references: dict | None
-    ) -> list[str]:
-        set_up = {
-            "file": str(self._scratch.folder / file),
+    def _set_up(self, limits: Limits, **given: Any) -> list[str]:
+        set_up = given | {
             "seconds": limits.seconds,
             "memory": limits.memory,
             "file_size": MAX_FILE,
-            "references": references,
             "environment": homes(self._scratch.root),
-            "readable": [str(path) for path in readable],
             "writable": [str(self._scratch.root), "/dev/null"],
         }
         try:
@@ -114,19 +121,30 @@ class Child:
             raise SandboxError(f"The confined child process did not start: {lines[-1]}.")
         return protocol.unpack(message)["missing"]
 
-    def ask(self, request: dict[str, Any], allowance: Allowance) -> dict[str, Any] | None:
+    def ask(
+        self,
+        request: dict[str, Any],
+        allowance: Allowance,
+        helping: Callable[[Any], Any] | None = None,
+    ) -> dict[str, Any] | None:
         """Return the answer to a request; None if the child has ended.
 
-        Raises TimeoutError when the allowance is used up, ValueError for anything that is not an
-        answer.
+        helping: answers what the child asks before it answers itself; both may be forged. Its time
+        is charged. Raises TimeoutError when the allowance is used up, ValueError for anything that
+        is not an answer.
         """
         with allowance.charged(self._pid) as left:
-            with contextlib.suppress(BrokenPipeError):
-                protocol.send(self._requests, protocol.pack(request), left)
-            message = protocol.receive(self._answers, left)
-        answer = None if message is None else protocol.unpack(message)
-        if answer is not None and not isinstance(answer, dict):
-            raise ValueError("not an answer")
+            while True:
+                with contextlib.suppress(BrokenPipeError):
+                    protocol.send(self._requests, protocol.pack(request), left)
+                message = protocol.receive(self._answers, left)
+                answer = None if message is None else protocol.unpack(message)
+                if answer is not None and not isinstance(answer, dict):
+                    raise ValueError("not an answer")
+                if helping is None or answer is None or "asks" not in answer:
+                    break
+                with left.helping():
+                    request = helping(answer["asks"])
         if answer is not None and "error" in answer and (full := self._scratch.is_full()):
             self._end(full)
             return None

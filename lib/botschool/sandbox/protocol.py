@@ -12,6 +12,7 @@ import json
 import math
 import os
 import re
+import select
 import selectors
 import time
 from collections.abc import Callable
@@ -33,6 +34,8 @@ POLL_SECONDS = 0.05
 """Seconds between two checks of the time left."""
 Left = Callable[[], float]
 _HEAD = 16
+_AT_ONCE = 2**16
+"""Bytes of a read: what a pipe holds."""
 _KIND = re.compile(r"[<>|=]?[biuf][1248]")
 
 
@@ -56,7 +59,7 @@ def unpack(message: bytes) -> Any:
     """Return the value of a message. Raises ValueError if the message is damaged."""
     try:
         length = int.from_bytes(message[:8], "little")
-        text, data = message[_HEAD : _HEAD + length], message[_HEAD + length :]
+        text, data = message[_HEAD : _HEAD + length], memoryview(message)[_HEAD + length :]
         restored = _Restored(data)
         value = restored.of(json.loads(text.decode(), parse_int=_integer), 0)
     except (ValueError, KeyError, TypeError, RecursionError, MemoryError, OverflowError) as error:
@@ -71,15 +74,21 @@ def receive(fd: int, seconds: float | Left) -> bytes | None:
 
     seconds: to wait, or a function that returns the seconds left.
     """
-    left = _left(seconds)
-    head = _read(fd, _HEAD, left)
-    if head is None:
-        return None
-    text, data = int.from_bytes(head[:8], "little"), int.from_bytes(head[8:], "little")
-    if text > MAX_TEXT or data > MAX_DATA:
-        raise ValueError("message too long")
-    rest = _read(fd, text + data, left)
-    return None if rest is None else head + rest
+    left, parts, length = _left(seconds), bytearray(), _HEAD
+    while len(parts) < length:
+        _wait(fd, select.POLLIN, left)
+        part = os.read(fd, _AT_ONCE)
+        if not part:
+            return None
+        parts += part
+        if length == _HEAD <= len(parts):
+            text, data = (int.from_bytes(parts[at : at + 8], "little") for at in (0, 8))
+            if text > MAX_TEXT or data > MAX_DATA:
+                raise ValueError("message too long")
+            length += text + data
+    if len(parts) > length:
+        raise ValueError("more than a message")
+    return bytes(parts)
 
 
 def read_some(fd: int, most: int, seconds: float) -> bytes:
@@ -105,16 +114,12 @@ def send(fd: int, message: bytes, seconds: float | Left) -> None:
 
     seconds: to wait, or a function that returns the seconds left.
     """
-    left = _left(seconds)
-    rest = memoryview(message)
-    with selectors.DefaultSelector() as selector:
-        selector.register(fd, selectors.EVENT_WRITE)
-        while rest:
-            _wait(selector, left)
-            try:
-                rest = rest[os.write(fd, rest) :]
-            except BlockingIOError:
-                continue
+    left, rest = _left(seconds), memoryview(message)
+    while rest:
+        try:
+            rest = rest[os.write(fd, rest) :]
+        except BlockingIOError:
+            _wait(fd, select.POLLOUT, left)
 
 
 def _left(seconds: float | Left) -> Left:
@@ -124,27 +129,16 @@ def _left(seconds: float | Left) -> Left:
     return lambda: deadline - time.monotonic()
 
 
-def _wait(selector: selectors.BaseSelector, left: Left) -> None:
-    """Wait until the pipe is ready. Raises TimeoutError."""
+def _wait(fd: int, event: int, left: Left) -> None:
+    """Wait until the pipe is ready, or closed. Raises TimeoutError."""
+    waiting = select.poll()
+    waiting.register(fd, event)
     while True:
         seconds = left()
         if seconds <= 0:
             raise TimeoutError
-        if selector.select(min(seconds, POLL_SECONDS)):
+        if waiting.poll(1000 * min(seconds, POLL_SECONDS)):
             return
-
-
-def _read(fd: int, count: int, left: Left) -> bytes | None:
-    parts = bytearray()
-    with selectors.DefaultSelector() as selector:
-        selector.register(fd, selectors.EVENT_READ)
-        while len(parts) < count:
-            _wait(selector, left)
-            part = os.read(fd, min(count - len(parts), 2**20))
-            if not part:
-                return None
-            parts += part
-    return bytes(parts)
 
 
 def _simple(value: Any, blobs: list[bytes], depth: int) -> Any:
@@ -178,7 +172,7 @@ def _simple(value: Any, blobs: list[bytes], depth: int) -> Any:
 class _Restored:
     """Rebuild values from JSON and the arrays' bytes."""
 
-    def __init__(self, data: bytes) -> None:
+    def __init__(self, data: memoryview) -> None:
         self._data = data
         self._arrays = 0
         self.used = 0

@@ -49,6 +49,8 @@ class ForkServer:
                 "Submissions run on Linux or macOS only: on Windows, install WSL with "
                 "'wsl --install' and work there."
             )
+        self._imports, self._environment = [*imports], environment
+        self._lean: dict[tuple[str, ...], ForkServer] = {}
         self._log = tempfile.TemporaryFile()  # noqa: SIM115
         self._home = tempfile.TemporaryDirectory(prefix="botschool-", ignore_cleanup_errors=True)
         self._link, theirs = socket.socketpair()
@@ -57,7 +59,7 @@ class ForkServer:
         self._lock = threading.Lock()
         try:
             self._process = subprocess.Popen(
-                interpreter("botschool.sandbox.server", str(theirs.fileno()), *imports),
+                interpreter("botschool.sandbox.server", str(theirs.fileno()), *self._imports),
                 cwd=self._home.name,
                 env={**(environment or {}), **_environment(self._home.name)},
                 stdin=subprocess.DEVNULL,
@@ -73,6 +75,20 @@ class ForkServer:
             ) from None
         finally:
             theirs.close()
+
+    def without(self, modules: Iterable[str]) -> ForkServer:
+        """Return a server that has not imported these modules and packages; this one, if it has.
+
+        This server closes it.
+        """
+        hidden = [f"{name}." for name in modules]
+        kept = tuple(n for n in self._imports if not f"{n}.".startswith(tuple(hidden)))
+        if len(kept) == len(self._imports):
+            return self
+        with self._lock:
+            if kept not in self._lean:
+                self._lean[kept] = ForkServer(kept, self._environment)
+            return self._lean[kept]
 
     def start(self, requests: int, answers: int, output: int, folder: Path) -> int:
         """Fork a child in a folder, with copies of three file descriptors; return its process id.
@@ -123,6 +139,8 @@ class ForkServer:
 
     def close(self) -> None:
         """End the server and all its children."""
+        for lean in self._lean.values():
+            lean.close()
         self._answers.close()
         self._link.close()
         try:

@@ -1,47 +1,58 @@
-"""List library functions that are the answer to a task, so that students write it themselves.
+"""List what libraries have for a task, so that students write it themselves.
 
-A grader gives these lists to `Exercise.task(refused=...)`, and the exercise's text says so. Other
-forbidden ways need other questions in the grader: it recognises finite differences in place of a
-gradient, for example, because they become wrong as soon as the loss is large beside the gradient
-(exercise 11).
+A grader gives these lists to `Exercise.task(refused=...)`, and the exercise's text says so. The
+forms of the names are those of botschool/grading/run/refused.py. Prefer whole modules, and below
+them operators: what a name leads to has other names, too. Other forbidden ways need other questions
+in the grader: it recognises finite differences in place of a gradient, for example, because they
+become wrong as soon as the loss is large beside the gradient (exercise 11).
 """
 
-_SB3 = "stable_baselines3.common"
-_DISTRIBUTIONS = "torch.distributions"
 _OPENAI_ES = "botschool.evolution.algorithms.openaies"
+_TORCH_IN_PYTHON = ("torch._refs", "torch._decomp")
+"""Torch's operators once more, in Python."""
+_NATIVE_PPO = ("botschool.rl", "botschool._core:PolicyGradient")
+_SB3 = ("stable_baselines3", "sb3_contrib")
 
-BACKPROPAGATION = ("torch.autograd:backward", "torch.autograd:grad")
+BACKPROPAGATION = (
+    "torch", "functorch", "torchvision", "torchaudio", "jax", "jaxlib", "tensorflow", "keras",
+    "autograd", "sympy", "casadi", "tinygrad", "theano", "pytensor", "mxnet", *_NATIVE_PPO, *_SB3,
+)  # fmt: skip
+"""Whatever differentiates; a submission's process has none of it."""
 CROSS_ENTROPY = (
-    "torch:log_softmax",
-    "torch:Tensor.log_softmax",
-    *(f"torch.nn.functional:{name}" for name in ("cross_entropy", "nll_loss", "log_softmax")),
-    f"{_DISTRIBUTIONS}.categorical:Categorical.log_prob",
-)
+    *(
+        f"torch.ops.aten:{name}"
+        for name in (
+            "_log_softmax", "_log_softmax.out", "log_softmax.int", "log_softmax.Dimname",
+            "log_softmax.int_out", "special_log_softmax", "_sparse_log_softmax",
+            "_sparse_log_softmax.int", "_sparse_log_softmax.Dimname", "cross_entropy_loss",
+            "nll_loss", "nll_loss.out", "nll_loss_nd", "nll_loss2d", "nll_loss2d.out",
+            "nll_loss_forward", "nll_loss_forward.output", "nll_loss2d_forward",
+            "nll_loss2d_forward.output",
+        )
+    ),
+    "torch.distributions", *_TORCH_IN_PYTHON, "scipy.special._logsumexp", "sklearn", *_SB3,
+)  # fmt: skip
 GAUSSIAN_DENSITY = (
     "torch.nn.functional:gaussian_nll_loss",
-    f"{_DISTRIBUTIONS}.normal:Normal.log_prob",
-    f"{_DISTRIBUTIONS}.multivariate_normal:MultivariateNormal.log_prob",
-    f"{_SB3}.distributions:DiagGaussianDistribution.log_prob",
+    "torch.distributions",
+    *_TORCH_IN_PYTHON,
+    "scipy.stats",
+    *_SB3,
 )
-ENTROPY = (
-    f"{_SB3}.distributions:CategoricalDistribution.entropy",
-    f"{_SB3}.distributions:DiagGaussianDistribution.entropy",
-    f"{_DISTRIBUTIONS}.categorical:Categorical.entropy",
-    f"{_DISTRIBUTIONS}.independent:Independent.entropy",
-    f"{_DISTRIBUTIONS}.normal:Normal.entropy",
-    f"{_DISTRIBUTIONS}.multivariate_normal:MultivariateNormal.entropy",
+ENTROPY = ("torch.distributions", "scipy.stats", *_NATIVE_PPO, *_SB3)
+ADVANTAGES = (*_NATIVE_PPO, *_SB3)
+EXPLAINED_VARIANCE = ("sklearn", *_NATIVE_PPO, *_SB3)
+UPDATES_MADE = (*_NATIVE_PPO, *_SB3)
+PPO_LOOP = (
+    *(f"botschool.rl.native.ppo:PPO.{name}" for name in ("update", "learn")),
+    "botschool._core:PolicyGradient.update",
+    "botschool.rl.native.training",
+    "botschool.rl.training",
+    *_SB3,
 )
-ADVANTAGES = (f"{_SB3}.buffers:RolloutBuffer.compute_returns_and_advantage",)
-EXPLAINED_VARIANCE = (f"{_SB3}.utils:explained_variance",)
-UPDATES_MADE = ("botschool.rl.reference:updates_made",)
 OPENAI_ES = (
     *(f"{_OPENAI_ES}:{name}" for name in ("ranks", "gradient", "adam", "climb")),
     f"{_OPENAI_ES}:OpenAIES.ask",
     f"{_OPENAI_ES}:OpenAIES.tell",
 )
-TRAINING = (
-    f"{_SB3}.on_policy_algorithm:OnPolicyAlgorithm.learn",
-    f"{_SB3}.off_policy_algorithm:OffPolicyAlgorithm.learn",
-    "botschool.rl.training:train",
-    "botschool.evolution.run:Run.advance",
-)
+TRAINING = ("botschool.evolution.run:Run.advance", *_NATIVE_PPO, *_SB3)

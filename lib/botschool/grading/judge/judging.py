@@ -77,8 +77,9 @@ def grade_task(
     """Run a task's checks on a file, in a child of its own; alone: as in `grade`.
 
     origin: where the lines of the file come from.
-    references: as in Student; with them, nothing is shown of what the submission prints, draws or
-    says in exceptions.
+    references: as in Student; with them, nothing is shown that the submission returns, prints,
+    draws or raises, since it can read these functions: the message names a known mistake, or the
+    first call that fails.
     known: mistakes to try if a check fails. Raises BotschoolError.
     """
     attempt = partial(_grade_task, task, file, server, origin, references, known or Known())
@@ -98,7 +99,7 @@ def _grade_task(
     problems: list[str] = []
     failed: list[tuple[int, Failure]] = []
     cheap: list[Callable[[Student], None]] = []
-    student, told = None, ""
+    student, told, call = None, "", ""
     try:
         student = Student(
             file, task.seconds, task.memory, server, tried, origin, references, task.refused
@@ -114,6 +115,7 @@ def _grade_task(
             else:
                 failed.append((len(problems), problem))
                 problems.append(problem.text)
+                call = call or student.pasted
         student.stop()
         if references is None:
             result.printed = plain(student.printed)
@@ -138,6 +140,8 @@ def _grade_task(
         said.setdefault(_SAME.split(each, maxsplit=1)[-1], each)
     if told:
         said = {"": told, **said}
+    if references is not None:
+        said = {"": told or (f"Then {call} is wrong." if call else "")}
     result.message = plain("\n".join(said.values()))
     return result
 

@@ -198,13 +198,14 @@ class Submission:
         yours = f"This task builds on {task_or_tasks} {which}, which {do} not pass yet."
         with_ours = f"With our {solution} in {place} place, it"
         if again.points <= result.points:
-            lines = [f"{yours} {with_ours} fails as well.", again.message]
-            result.message = "\n".join(filter(None, [lines[1] or result.message, lines[0]]))
-            return result
-        full = again.points == again.max_points
-        note = f"{yours} {with_ours} {'gets all' if full else 'still loses some'} of its points."
-        result.points = again.points
-        result.message = "\n".join(filter(None, [note, again.message]))
+            lines = [result.message, f"{yours} {with_ours} fails as well."]
+        elif again.points == again.max_points:
+            lines = [f"{yours} {with_ours} gets all of its points."]
+        else:
+            lines = [f"{yours} {with_ours} still loses some of its points."]
+            lines.append(again.message or result.message)
+        result.points = max(result.points, again.points)
+        result.message = "\n".join(lines)
         return result
 
     def _digest(self) -> str:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import errno
 import hashlib
+import inspect
 import json
 import os
 import tempfile
-from collections.abc import Iterable, Iterator
+import textwrap
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -15,6 +17,7 @@ from typing import Any
 from botschool.errors import BotschoolError
 from botschool.grading.declare.beside import SLIPS
 from botschool.grading.declare.checks import Wrong
+from botschool.grading.run.refused import hidden_files, hidden_modules, refuse
 from botschool.grading.run.temporary import PREFIX
 from botschool.paths import material
 from botschool.sandbox import Child, ForkServer, Limits, Refused, SandboxError, Scratch, paths
@@ -88,10 +91,25 @@ def start_child(
     file: Path,
     limits: Limits,
     references: dict[str, Any] | None = None,
+    refused: tuple[str, ...] = (),
 ) -> Child:
-    """Start a child for a submission's file, given by its original path. Raises BotschoolError."""
+    """Start a child for a submission's file, given by its original path. Raises BotschoolError.
+
+    refused: as in Exercise.task.
+    """
+    prepare = [source_of(refuse), refuse.__name__, list(refused)] if refused else None
     with translated():
-        return Child(server, scratch, file.name, limits, readable(file), references)
+        server = server.without(hidden_modules(refused))
+        hidden = hidden_files(refused)
+        places = readable(file, hidden)
+        # Python finds a module by the names in its folder
+        listed = [p for p in _needed() if any(each.is_relative_to(p) for each in hidden)]
+        return Child(server, scratch, file.name, limits, places, references, prepare, listed)
+
+
+def source_of(function: Callable[..., Any]) -> str:
+    """Return a function's text, to send it to a child."""
+    return textwrap.dedent(inspect.getsource(function))
 
 
 def scratch_copy(file: Path) -> Scratch:
@@ -149,27 +167,31 @@ def close_class(*folders: Path) -> None:
     os.environ[CLASS] = json.dumps([str(folder) for folder in closed])
 
 
-def readable(file: Path) -> list[Path]:
+def readable(file: Path, hidden: Iterable[Path] = ()) -> list[Path]:
     """Return the files and folders that a submission may read besides its copy.
 
-    The course, the original folder of `file`, and the folders that close_class has named stay
-    closed, even inside one of the system's folders.
+    Those in `hidden` stay closed. The course, the original folder of `file`, and the folders that
+    close_class has named stay closed, even inside one of the system's folders.
     """
-    import botschool._core
-
-    own = paths.IMPORT_ROOT.resolve()  # lib/, or site-packages
-    core = Path(botschool._core.__file__).resolve().parent
-    needed = [own / "botschool", core, *paths.interpreter_paths()]
-    file = file.resolve()
+    needed, file = _needed(), file.resolve()
     closed = [
         place
         for place in file.parents[:3]
         if not any(each.is_relative_to(place) for each in needed)
     ]
-    closed += map(Path, json.loads(os.environ.get(CLASS, "[]")))
+    closed += [*hidden, *map(Path, json.loads(os.environ.get(CLASS, "[]")))]
     here = Path.cwd() / os.environ.get("BOTSCHOOL_COURSE", "")
     courses = {material(), here, *here.parents, *file.parents}
     closed += [
         course / name for course in courses if (course / "exercises").is_dir() for name in _PRIVATE
     ]
     return paths.without([*needed, material() / "data", *paths.system_paths()], closed)
+
+
+def _needed() -> list[Path]:
+    """Return the folders of botschool, of the interpreter and of its packages."""
+    import botschool._core
+
+    own = paths.IMPORT_ROOT.resolve()  # lib/, or site-packages
+    core = Path(botschool._core.__file__).resolve().parent
+    return [own / "botschool", core, *paths.interpreter_paths()]

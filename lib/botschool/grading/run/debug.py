@@ -12,6 +12,7 @@ from typing import Any
 
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.run.confined import scratch_copy
+from botschool.grading.run.rewiring import Rewired
 
 
 class DirectStudent:
@@ -62,10 +63,14 @@ class DirectStudent:
         *arguments: Any,
         said: str | None = None,
         call: tuple[Any, ...] | None = None,
+        robot: dict[str, Any] | None = None,
     ) -> Any:
         """Call a driver with the submission's module."""
         self.said = said or f"{driver.__name__}(...)"
-        return driver(self._module, *arguments)
+        if robot is None:
+            return driver(self._module, *arguments)
+        self.rewired = Rewired(**robot)
+        return driver(self._module, self.rewired.answer, *arguments)
 
     def scratch(self, name: str) -> Path:
         """Return a file that the submission has written."""

@@ -104,10 +104,8 @@ _ADVICE = (
 class SourceLines:
     """The lines of a submission's files, as handed in."""
 
-    def __init__(self, file: Path, origin: Origin, quiet: bool = False) -> None:
-        """Read the lines; quiet: whether to show nothing of exceptions' messages."""
-        self._file, self._place = file, origin.place
-        self.lost, self.quiet = origin.lost, quiet
+    def __init__(self, file: Path, origin: Origin) -> None:
+        self._file, self._place, self.lost = file, origin.place, origin.lost
         self._texts: dict[str, list[str]] = {}
 
     def at(self, name: str, line: int) -> tuple[str, str]:
@@ -160,7 +158,6 @@ def explained(answer: dict[str, Any], said: str, source: SourceLines) -> Wrong:
     name, text, near, call = (
         plain(str(answer.get(key) or "")[:500]) for key in ("error", "text", "near", "call")
     )
-    text = "" if source.quiet and name not in ("Missing", "NotPlain") else text
     if answer.get("process") is True:
         text = NO_PROCESSES
     elif name == "BotschoolError" and "ffmpeg" in text:

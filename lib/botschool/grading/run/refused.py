@@ -1,83 +1,208 @@
-"""Refuse library functions that students must write themselves."""
+"""Refuse libraries' answers to a task: hide their files, and replace what is in memory.
+
+A task names what it refuses in one of three forms.
+
+- "package.module": a module, or a package with all that it holds. A process for the task never
+  imports it anew: a stand-in takes its place. Where it is loaded already, because another library
+  needs it, all its functions are refused.
+- "package.module:function", "package.module:Class.method" or "package.module:Class": a part of a
+  module whose other parts are needed.
+- "torch.ops.aten:operator": one of torch's operators, whatever name or language calls it.
+
+The files of all these modules are closed to the process (hidden_files), so their text cannot run
+under another name. Nothing of the submission runs before its process is prepared (refuse).
+"""
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Iterable
+from importlib.machinery import PathFinder
+from pathlib import Path
 
-def refuse(module, names):
-    """Make functions of these names raise a sentence, from wherever they were imported.
+from botschool.sandbox.paths import IMPORT_ROOT, is_packages
 
-    names: as "package.module:function" or "package.module:Class.method". Functions of a module that
-    is imported later are refused at its import, and whenever its file is executed again: by an
-    import, by one after sys.modules was emptied, or by a loader that the submission makes. A Python
-    function keeps its identity and gets other code, so a name bound earlier is refused, too. A
-    function that is not written in Python has no code: another one replaces it in its module and in
-    the submission. The function runs in the child and is sent there as source (Student.run), so it
-    does its own imports.
+OPERATORS = "torch.ops.aten"
+
+
+def hidden_modules(refused: Iterable[str]) -> list[str]:
+    """Return the modules and packages that are refused as a whole."""
+    return [name for name in refused if ":" not in name]
+
+
+def hidden_files(refused: Iterable[str]) -> list[Path]:
+    """Return the files and folders of the refused modules, with Python's copies of them."""
+    found: list[Path] = []
+    for name in {name.partition(":")[0] for name in refused}:
+        for place in _places(name):
+            found.append(place)
+            if place.suffix == ".py":
+                found += place.parent.glob(f"__pycache__/{place.stem}.*")
+    return found
+
+
+def _places(name: str) -> list[Path]:
+    """Return where a module's text lies: its file, or its package's folders.
+
+    No package is imported to find that out.
     """
-    import contextlib
-    import functools
+    search: list[str] | None = [str(IMPORT_ROOT), *filter(is_packages, sys.path)]
+    parts = name.split(".")
+    for at in range(1, len(parts) + 1):
+        spec = PathFinder.find_spec(".".join(parts[:at]), search)
+        if spec is None:
+            return []
+        search = [*spec.submodule_search_locations] if spec.submodule_search_locations else None
+        if search is None:
+            is_text = at == len(parts) and str(spec.origin).endswith(".py")
+            return [Path(str(spec.origin)).resolve()] if is_text else []
+    return [Path(folder).resolve() for folder in search or []]
+
+
+def refuse(names):
+    """Prepare this process for a task that refuses these names, before the submission is loaded.
+
+    Return a function to call once it is loaded: until then, what a file computes with a stand-in
+    on the side is a stand-in, too, and afterwards it is an error. The function is sent to the
+    process as source, so it does its own imports.
+    """
+    import gc
+    import importlib
+    import importlib.abc
+    import importlib.machinery
     import sys
-    from importlib.machinery import PathFinder, SourceFileLoader
+    import types
 
-    def close(place, attributes):
-        for path in attributes:
-            *owners, last = path.split(".")
-            owner = functools.reduce(lambda at, name: getattr(at, name, None), owners, place)
-            function = getattr(owner, last, None)
-            while hasattr(function, "__wrapped__"):
-                function = function.__wrapped__
-            if function is None:
-                continue
-            sentence = f"write it yourself: {place.__name__}.{path} is not to be used here"
-            if not hasattr(function, "__code__"):
-                replace(owner, last, function, sentence)
-                continue
-            free = [f"free_{i}" for i in range(len(function.__code__.co_freevars))]
-            names = {}
-            lines = ["def make():", *(f"    {name} = None" for name in free)]
-            lines += ["    def refused(*arguments, **options):"]
-            lines += [f"        raise RuntimeError({sentence!r})"]
-            lines += [f"        {name}" for name in free]
-            exec("\n".join([*lines, "    return refused"]), names)
-            function.__defaults__ = function.__kwdefaults__ = None
-            function.__code__ = names["make"]().__code__
+    loaded = []
 
-    def replace(owner, last, function, sentence):
-        """Replace a function that is not written in Python."""
+    def sentence(name):
+        return f"write it yourself: {name} is not to be used here"
 
-        def refused(*arguments, **options):
-            raise RuntimeError(sentence)
+    class Kind(type):
+        """The type of stand-ins; a stand-in is a class, so that classes can build on it."""
 
-        with contextlib.suppress(TypeError, AttributeError):  # a type in C cannot change
-            setattr(owner, last, refused)
-        for name, value in list(vars(module).items()):
-            if value is function:
-                setattr(module, name, refused)
+        def __getattr__(cls, name):
+            if name.startswith("__") and name.endswith("__"):
+                raise AttributeError(name)
+            return stand_in(f"{cls.__module__}.{name}" if cls.__module__ else name)
 
-    def file_of(name):
-        """Return a module's file, without importing its package; None if there is none."""
-        where = None
-        for at in range(1, name.count(".") + 2):
-            spec = PathFinder.find_spec(".".join(name.split(".")[:at]), where)
-            if spec is None:
+        def __call__(cls, *arguments, **options):
+            if loaded:
+                raise RuntimeError(sentence(cls.__module__))
+            if len(arguments) == 1 and not options and callable(arguments[0]):
+                return arguments[0]  # as a decorator does
+            return stand_in(cls.__module__)
+
+        def __enter__(cls):
+            return cls
+
+        def __exit__(cls, *error):
+            return None
+
+    def stand_in(name):
+        return Kind(name.rpartition(".")[2], (), {"__module__": name})
+
+    class StandIn(types.ModuleType):
+        def __getattr__(self, name):
+            if name.startswith("__") and name != "__version__":
+                raise AttributeError(name)
+            return stand_in(f"{self.__name__}.{name}")
+
+    class Finder(importlib.abc.MetaPathFinder, importlib.abc.Loader):
+        def find_spec(self, name, path=None, target=None):
+            if not is_hidden(name):
                 return None
-            where = spec.submodule_search_locations
-        return spec.origin
+            return importlib.machinery.ModuleSpec(name, self, is_package=True)
 
-    wanted, files = {}, {}
+        def create_module(self, spec):
+            return StandIn(spec.name)
+
+        def exec_module(self, module):
+            pass
+
+    def is_hidden(name):
+        return any(name == each or name.startswith(f"{each}.") for each in hidden)
+
+    def code_for(function, name):
+        """Return code that raises, with as many free names as the function's own code."""
+        free = [f"free_{i}" for i in range(len(function.__code__.co_freevars))]
+        lines = ["def make():", *(f"    {each} = None" for each in free)]
+        lines += ["    def refused(*arguments, **options):"]
+        lines += [f"        raise RuntimeError({sentence(name)!r})"]
+        lines += [f"        {each}" for each in free]
+        made = {}
+        exec("\n".join([*lines, "    return refused"]), made)
+        return made["make"]().__code__
+
+    def close(function, name):
+        """Give a function written in Python other code: all who hold it call that."""
+        function.__defaults__ = function.__kwdefaults__ = None
+        function.__code__ = code_for(function, name)
+
+    def raising(name):
+        def refused(*arguments, **options):
+            raise RuntimeError(sentence(name))
+
+        return refused
+
+    def close_part(owner, last, name):
+        """Refuse a function, or all functions of a class."""
+        part = vars(owner).get(last)
+        if isinstance(part, (staticmethod, classmethod)):
+            part = part.__func__
+        if isinstance(part, type):
+            for each, value in list(vars(part).items()):
+                if callable(value) and each not in ("__new__", "__class__", "__doc__"):
+                    close_part(part, each, name)
+            return
+        while hasattr(part, "__wrapped__"):
+            part = part.__wrapped__
+        if isinstance(part, types.FunctionType):
+            close(part, name)
+        elif part is not None:
+            setattr(owner, last, raising(name))
+
+    def close_loaded():
+        """Refuse every function of hidden modules that are loaded, wherever it is kept."""
+        files = {
+            module.__file__
+            for name, module in list(sys.modules.items())
+            if is_hidden(name) and getattr(module, "__file__", None)
+        }
+        for each in gc.get_objects() if files else ():
+            if type(each) is types.FunctionType and each.__code__.co_filename in files:
+                close(each, f"{each.__module__}.{each.__qualname__}")
+
+    def close_operators(operators):
+        """Refuse torch's operators on the processor, for good."""
+        import ctypes
+        import warnings
+
+        import torch
+
+        library = torch._C._dispatch_library("IMPL", "aten", "", __name__, 1)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # that they had another meaning
+            for each in operators:
+                for key in ("CPU", "SparseCPU", "CompositeImplicitAutograd"):
+                    library.impl(each, key, raising(f"torch's {each}"))
+        # whoever could end the library would get the operators back: nobody holds it now
+        ctypes.pythonapi.Py_IncRef(ctypes.py_object(library))
+
+    hidden = [name for name in names if ":" not in name]
+    close_loaded()
+    sys.meta_path.insert(0, Finder())
+    operators = []
     for name in names:
         place, _, attribute = name.partition(":")
-        wanted.setdefault(place, []).append(attribute)
-    for place, attributes in wanted.items():
-        files[file_of(place)] = attributes
-        if place in sys.modules:
-            close(sys.modules[place], attributes)
-    files.pop(None, None)
-
-    def exec_module(self, place):
-        execute(self, place)
-        if attributes := files.get(getattr(self, "path", None)):
-            close(place, attributes)
-
-    execute = SourceFileLoader.exec_module
-    SourceFileLoader.exec_module = exec_module
+        if place == "torch.ops.aten":
+            operators.append(attribute)
+        elif attribute:
+            owner = importlib.import_module(place)
+            *owners, last = attribute.split(".")
+            for each in owners:
+                owner = getattr(owner, each)
+            close_part(owner, last, f"{place}.{attribute}")
+    if operators:
+        close_operators(operators)
+    return lambda: loaded.append(True)

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import errno
-import inspect
 import os
-import textwrap
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -17,10 +16,11 @@ from botschool.grading.run.confined import (
     fork_server,
     machine_fault,
     scratch_copy,
+    source_of,
     start_child,
 )
 from botschool.grading.run.failures import Origin, SourceLines, explained, where_it_was
-from botschool.grading.run.refused import refuse
+from botschool.grading.run.rewiring import Rewired
 from botschool.sandbox import Allowance, Child, ForkServer, Limits
 from botschool.sandbox.protocol import pack
 from botschool.sandbox.usage import is_full
@@ -81,8 +81,10 @@ class Student:
         """A sentence on the first call that changed an array, list or dict of its caller."""
         self.trace: list[tuple[bytes, bytes, float]] | None = None
         """Packed requests and their packed answers, if this is a list."""
+        self.rewired: Rewired | None = None
+        """The robot of the last request, with its record of what was evaluated."""
         self._references = references
-        self._source = SourceLines(self._file, origin or Origin(), quiet=references is not None)
+        self._source = SourceLines(self._file, origin or Origin())
         self._scratch = scratch_copy(self._file)
         self._server = server
         self._own: ForkServer | None = None
@@ -104,18 +106,21 @@ class Student:
         *arguments: Any,
         said: str | None = None,
         call: tuple[Any, ...] | None = None,
+        robot: dict[str, Any] | None = None,
     ) -> Any:
         """Run a function of the grader in the child, as driver(student_module, ...).
 
         The driver must import what it needs. The submission can forge what the driver reports:
         check it. call: name and arguments of the function that the driver calls, if it calls one;
-        learners can then try it.
+        learners can then try it. robot: arguments of a Rewired, which stays in this process and
+        answers the driver, driver(student_module, ask, ...); then `rewired` is it.
         """
         self.said, self.pasted, self.direct = said or f"{driver.__name__}(...)", "", {}
         if call is not None:
             self.pasted = pasted(call[0], call[1:], {})
             self.direct = {"name": call[0], "arguments": call[1:], "options": {}}
-        return self._request(_driven(driver, *arguments))
+        request = {"driver": source_of(driver), "name": driver.__name__, "arguments": arguments}
+        return self._request(request if robot is None else request | {"robot": robot})
 
     def ask(self, request: dict[str, Any]) -> Any:
         """Repeat a request from another Student's trace and return the answer. Raises Wrong."""
@@ -187,13 +192,11 @@ class Student:
                 self._server = self._own = fork_server()
             limits = Limits(self.seconds_left, self._memory)
             self._child = start_child(
-                self._server, self._scratch, self._file, limits, self._references
+                self._server, self._scratch, self._file, limits, self._references, self._refused
             )
             self.missing = self._child.missing
         try:
-            if first and self._refused:
-                self._child.ask(_driven(refuse, list(self._refused)), self._allowance)
-            answer = self._child.ask(request, self._allowance)
+            answer = self._answer_to(request)
         except TimeoutError:
             where = where_it_was(self._child.where(), self._source)
             self.stop()
@@ -228,6 +231,18 @@ class Student:
             self.trace.append((pack(request), pack(self.answer), before - self.seconds_left))
         return self.answer
 
+    def _answer_to(self, request: dict[str, Any]) -> dict[str, Any] | None:
+        """Return what Child.ask returns. A robot answers the child in between.
+
+        It does so in a thread: its time is the task's, not that of the check.
+        """
+        if "robot" not in request:
+            return self._child.ask(request, self._allowance)
+        robot = self.rewired = Rewired(**request["robot"])
+        sent = {name: each for name, each in request.items() if name != "robot"} | {"asks": True}
+        with ThreadPoolExecutor(1) as thread:
+            return thread.submit(self._child.ask, sent, self._allowance, robot.answer).result()
+
     def _blame_the_machine_for_a_kill(self) -> None:
         """Raise MachineFault if something other than the grader has killed the child."""
         if not self._child.was_killed():
@@ -247,9 +262,3 @@ class Student:
             raise MachineFault(
                 f"The disk was full while {self.said} was running: free some space and grade again."
             )
-
-
-def _driven(driver: Callable[..., Any], *arguments: Any) -> dict[str, Any]:
-    """Return the request that runs a driver."""
-    source = textwrap.dedent(inspect.getsource(driver))
-    return {"driver": source, "name": driver.__name__, "arguments": arguments}
