@@ -390,7 +390,9 @@ def tells_the_two_ends_apart(student: Student):
 
 # ------------------------------------------------------------------- 1.3
 cartpole = exercise.task(
-    "1.3", "The reward of CartPole", refused=(f"{CLASSIC}.cartpole:CartPoleEnv.step",)
+    "1.3",
+    "The reward of CartPole",
+    refused=tuple(f"{CLASSIC}.cartpole:CartPole{kind}Env.step" for kind in ("", "Vector")),
 )
 
 

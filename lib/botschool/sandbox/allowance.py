@@ -32,6 +32,8 @@ class Allowance:
         """Seconds passed, without the time spent waiting for a processor."""
         self.passed = 0.0
         """Seconds passed."""
+        self.helped = False
+        """Whether the caller has worked for the code."""
 
     @property
     def left(self) -> float:
@@ -44,8 +46,8 @@ class Allowance:
 
     @property
     def slept(self) -> bool:
-        """Return whether the code spent most of the time without computing."""
-        return self.processor < self.active / 2
+        """Return whether the code spent most of the time without computing or asking."""
+        return not self.helped and self.processor < self.active / 2
 
     @contextmanager
     def charged(self, pid: int) -> Iterator[Charge]:
@@ -91,6 +93,7 @@ class Charge:
     @contextmanager
     def helping(self) -> Iterator[None]:
         """Charge the processor time of this thread in the block, and not the time that passes."""
+        self._allowance.helped = True
         self._elapsed += min(time.monotonic() - self._asked, self._allowance.PAUSE)
         start = time.thread_time()
         try:

@@ -11,6 +11,7 @@ import os
 import signal
 import sys
 import tempfile
+import threading
 from pathlib import Path
 from typing import Any
 
@@ -38,6 +39,7 @@ class Pipes:
 
     def __init__(self, requests: int, answers: int) -> None:
         self._requests, self._answers = requests, answers
+        self._asking = threading.Lock()
 
     def receive(self) -> bytes | None:
         """Return the next packed request; None if the caller has ended."""
@@ -50,8 +52,10 @@ class Pipes:
 
     def ask(self, question: Any) -> Any:
         """Ask the caller, who is waiting for an answer, and return what it says."""
-        self.send(protocol.pack({"asks": question}))
-        return protocol.unpack(self.receive() or b"")
+        message = protocol.pack({"asks": question})
+        with self._asking:  # one thread after another
+            self.send(message)
+            return protocol.unpack(self.receive() or b"")
 
 
 def called(driver: str, name: str, *arguments: Any) -> Any:

@@ -67,6 +67,9 @@ class Child:
         listed: folders in which it may read names, also of files that are closed.
         Raises SandboxError.
         """
+        self.helping: Callable[[Any], Any] | None = None
+        """Answers what the child asks, which may be forged, before it answers a request. Its time
+        is charged."""
         self._server = server
         self._scratch = scratch
         self._reason = ""
@@ -121,17 +124,11 @@ class Child:
             raise SandboxError(f"The confined child process did not start: {lines[-1]}.")
         return protocol.unpack(message)["missing"]
 
-    def ask(
-        self,
-        request: dict[str, Any],
-        allowance: Allowance,
-        helping: Callable[[Any], Any] | None = None,
-    ) -> dict[str, Any] | None:
+    def ask(self, request: dict[str, Any], allowance: Allowance) -> dict[str, Any] | None:
         """Return the answer to a request; None if the child has ended.
 
-        helping: answers what the child asks before it answers itself; both may be forged. Its time
-        is charged. Raises TimeoutError when the allowance is used up, ValueError for anything that
-        is not an answer.
+        Raises TimeoutError when the allowance is used up, ValueError for anything that is not an
+        answer.
         """
         with allowance.charged(self._pid) as left:
             while True:
@@ -141,10 +138,10 @@ class Child:
                 answer = None if message is None else protocol.unpack(message)
                 if answer is not None and not isinstance(answer, dict):
                     raise ValueError("not an answer")
-                if helping is None or answer is None or "asks" not in answer:
+                if self.helping is None or answer is None or "asks" not in answer:
                     break
                 with left.helping():
-                    request = helping(answer["asks"])
+                    request = self.helping(answer["asks"])
         if answer is not None and "error" in answer and (full := self._scratch.is_full()):
             self._end(full)
             return None

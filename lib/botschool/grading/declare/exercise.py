@@ -143,7 +143,7 @@ class Exercise:
         seconds: processor time of all its checks. memory: MB beyond the imports.
         needs: ids of tasks whose functions students call in this one. If one of these fails, this
         task is also graded with our functions in its place.
-        refused: library functions that would answer the task, as in refused.refuse.
+        refused: what libraries have for the task, in the forms of grading/run/refused.py.
         packages: the exercise's extras that this task needs; None for all. Packages of other extras
         may be missing.
         """

@@ -7,7 +7,7 @@ A hostile submission gains little. In this one attempt its process holds only ou
 needed tasks; `pruned` leaves out the graded task's functions. The submission may call or read them
 to earn the points of this task, which is the purpose. It cannot carry them to another task: every
 attempt has a confined process and folder of its own that are thrown away, and nothing that this
-attempt prints, draws or raises is shown.
+attempt returns, prints, draws or raises is shown.
 """
 
 from __future__ import annotations

@@ -237,11 +237,13 @@ class Student:
         It does so in a thread: its time is the task's, not that of the check.
         """
         if "robot" not in request:
+            self._child.helping = None
             return self._child.ask(request, self._allowance)
-        robot = self.rewired = Rewired(**request["robot"])
+        self.rewired = Rewired(**request["robot"])
+        self._child.helping = self.rewired.answer
         sent = {name: each for name, each in request.items() if name != "robot"} | {"asks": True}
         with ThreadPoolExecutor(1) as thread:
-            return thread.submit(self._child.ask, sent, self._allowance, robot.answer).result()
+            return thread.submit(self._child.ask, sent, self._allowance).result()
 
     def _blame_the_machine_for_a_kill(self) -> None:
         """Raise MachineFault if something other than the grader has killed the child."""
