@@ -220,7 +220,7 @@ def test_mistakes_are_tried_on_a_call_that_takes_little_time():
 
 
 def test_right_answers_start_no_trial(messages, monkeypatch):
-    monkeypatch.setattr(replay, "_calls", None)
+    monkeypatch.setattr(replay, "calls_of", None)
     right = RIGHT + BY_N.replace("len(x)", "(len(x) - 1)")
     assert messages(right) == ["", ""]
     with pytest.raises(UserWarning, match="is not callable"):

@@ -250,7 +250,7 @@ def stability(curve: np.ndarray) -> dict:
 # weights with standard deviation 0.1; how many of each there are, `robot.nbiases` and
 # `robot.nweights` say. `robot.evaluate(candidates, seed, episodes=10)` measures fitness.
 #
-# What counts is a centre that was evolved by this algorithm, there and then: so that none can be
+# What counts is a centre to which your own `evolve` has led, there and then: so that none can be
 # written down, `robot.evaluate` gives parameters other signs when the task is graded. Evolution
 # does not notice.
 
@@ -259,7 +259,8 @@ def stability(curve: np.ndarray) -> dict:
 def train(environment: str, seed: int) -> np.ndarray:
     """A centre for Robot(environment), "CartPole-v0" or "Pendulum-v1", evolved from the seed.
 
-    The seed decides about the start and all samples: another seed gives another evolution.
+    Return a centre to which calls of evolve have led, from a first one that is not good yet. The
+    seed decides about the start and all samples: another seed gives another evolution.
 
     Choose the hyperparameters yourself. On average over 100 new episodes, the pole of CartPole
     must stay up for 195 of 200 steps, and Pendulum must reach a return of -400. Seconds are enough.

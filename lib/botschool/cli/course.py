@@ -74,6 +74,17 @@ def grade(
         raise typer.Exit(1)
 
 
+@app.command(epilog="Example: botschool explain 3.2")
+def explain(
+    task: Annotated[str, typer.Argument(help="Task N.T.", metavar="N.T")],
+    submission: Submission = None,
+) -> None:
+    """Show all calls of a task, what your code returned and what was expected."""
+    from botschool.grading.commands import explain_command
+
+    explain_command(task, submission)
+
+
 @app.command(epilog="Example: botschool hint 3.2")
 def hint(
     task: Annotated[str, typer.Argument(help="Task N.T.", metavar="N.T")],

@@ -12,6 +12,7 @@ from botschool.grading.declare.checks import (
     went_on,
 )
 from botschool.grading.declare.exercise import Exercise, Task
+from botschool.grading.declare.same import same
 from botschool.grading.declare.slips import slips, spoiled
 from botschool.grading.run.student import Student
 
@@ -26,6 +27,7 @@ __all__ = [
     "expect_close",
     "expect_ends",
     "expect_fields",
+    "same",
     "show",
     "slips",
     "spoiled",

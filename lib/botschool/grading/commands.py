@@ -37,8 +37,9 @@ from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import Result, grade
 from botschool.grading.report.progress import digest, remember
 from botschool.grading.report.screen import Screen, Watched, counting, say_missing
-from botschool.grading.run.confined import close_class
+from botschool.grading.run.confined import close_class, fork_server
 from botschool.grading.run.debug import DirectStudent
+from botschool.grading.run.ours import ours_of
 from botschool.grading.run.temporary import temporary_files_within
 from botschool.terminal import exits_on_signals
 
@@ -140,6 +141,8 @@ def _warn_of_unconfined(file: Path) -> None:
 def debug_task(exercise: Exercise, id: str, file: Path) -> bool:
     """Run a task's checks in this process, without limits and points."""
     task = exercise.find(id)
+    server = fork_server(exercise.imports)
+    exercise.ours = ours_of(exercise, server)
     student = DirectStudent(file)
     try:
         for _, name, check in task.checks:
@@ -153,7 +156,24 @@ def debug_task(exercise: Exercise, id: str, file: Path) -> bool:
                 traceback.print_exc()
     finally:
         student.close()
+        exercise.ours.close()
+        server.close()
     return False
+
+
+@exits_on_signals()
+@temporary_files_within()
+def explain_command(what: str, submission: str | None) -> None:
+    """Print all calls of a task with both answers."""
+    from botschool.grading.report.explain import explain
+
+    number, task = _named(what)
+    if not task:
+        raise BotschoolError(f"Name a task, for example botschool explain {number}.1")
+    exercise = load_exercise(number)
+    chosen = exercise.find(what)
+    found, _ = _found(exercise, submission, [chosen])
+    explain(exercise, chosen, found.file, Console(highlight=False))
 
 
 def hint_command(what: str) -> None:

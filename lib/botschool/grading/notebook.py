@@ -87,7 +87,7 @@ def _grade_here(task: str) -> float:
         fork_server(exercise.imports) as server,
         Submission(path, server, sources, exercise.file, exercise=exercise) as submission,
     ):
-        result = submission.grade(asked)
+        result = submission.grade(asked).complete()
     print(report(result, submission.banner))
     return float(result.points)
 

@@ -65,14 +65,14 @@ def called(driver: str, name: str, *arguments: Any) -> Any:
     return names[name](*arguments)
 
 
-def run(module: Any, request: dict[str, Any], pipes: Pipes) -> Any:
+def run(module: Any, request: dict[str, Any], pipes: Pipes | None = None) -> Any:
     """Call a function of the untrusted module, or a driver with it; return the result.
 
     request: {"name", "arguments", "options"}, or {"driver": source, "name", "arguments"}. With
-    "asks", the driver's second argument is a function that asks the caller.
+    "asks", the driver's second argument is a function that asks the caller through the pipes.
     """
     if "driver" in request:
-        given = [module, pipes.ask] if request.get("asks") else [module]
+        given = [module, pipes.ask] if pipes and request.get("asks") else [module]
         return called(request["driver"], request["name"], *given, *request["arguments"])
     function = getattr(module, request["name"], None)
     if function is None:

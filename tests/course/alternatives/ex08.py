@@ -151,24 +151,20 @@ def stability(curve):
 
 
 def train(environment, seed):
-    """Small generations of arrays, one candidate after another."""
+    """Small generations, one candidate after another."""
     robot = Robot(environment)
     rng = np.random.default_rng([seed, 7])
-    n = robot.nbiases + robot.nweights
-    centre, m, v = 0.1 * rng.standard_normal(n), np.zeros(n), np.zeros(n)
-    for g in range(90 if environment.startswith("Cart") else 700):
-        samples = rng.standard_normal((15, n))
-        scores = []
-        for e in samples:
-            for c in (centre + 0.2 * e, centre - 0.2 * e):
-                scores.append(robot.evaluate(c[None, :], seed + g, episodes=10)[0])
-        d = -np.array(gradient(samples, utilities(scores)))
-        centre, m, v = (np.array(each) for each in adam(centre, d, m, v, g + 1, 0.05))
-    return centre.tolist()
+    centre = (0.1 * rng.standard_normal(robot.nbiases + robot.nweights)).tolist()
+
+    def evaluate(candidates, s):
+        return [robot.evaluate(np.array([c]), s, episodes=10)[0] for c in candidates]
+
+    many = 90 if environment.startswith("Cart") else 700
+    return list(evolve(evaluate, np.array(centre), many, seed, 15, 0.2, 0.05)["centre"])
 
 
 # %% one_side_after_the_other
-# Other functions: repeat, sorting twice, einsum; a training that looks at all on one side first.
+# Other functions: repeat, sorting twice, einsum; a training that evaluates one side after the other.
 def candidates_around(centre, samples, noiseStdDev):
     signs = np.tile([1.0, -1.0], len(samples))[:, None]
     return centre + noiseStdDev * signs * np.repeat(samples, 2, axis=0)
@@ -223,14 +219,15 @@ def stability(curve):
 def train(environment, seed):
     robot, rng = Robot(environment), np.random.default_rng(seed)
     centre = np.concatenate([np.zeros(robot.nbiases), 0.1 * rng.standard_normal(robot.nweights)])
-    m, v = np.zeros_like(centre), np.zeros_like(centre)
-    for g in range(70 if "CartPole" in environment else 500):
-        e = rng.standard_normal((20, len(centre)))
-        fitness = robot.evaluate(np.vstack([centre + 0.2 * e, centre - 0.2 * e]), seed + g, 10)
-        ranks = utilities(fitness)
-        d = -(ranks[:20] - ranks[20:]) @ e / 40
-        centre, m, v = adam(centre, d, m, v, g + 1, 0.05)
-    return centre
+
+    def evaluate(candidates, s):
+        fitness = np.empty(len(candidates))
+        for side in (1, 0):
+            fitness[side::2] = robot.evaluate(candidates[side::2], s, 10)
+        return fitness
+
+    many = 70 if "CartPole" in environment else 500
+    return evolve(evaluate, centre, many, seed, noiseStdDev=0.2, stepsize=0.05)["centre"]
 
 
 # %% single_precision
@@ -290,38 +287,35 @@ def train(environment, seed):
 
 
 # %% shrinking_steps_and_the_best_centre
-# Steps that become shorter, and the centre of the best generation instead of the last one.
+# Several evolutions one after another with shorter steps, and the best centre of their ends.
 def train(environment, seed):
     robot, rng = Robot(environment), np.random.default_rng(seed)
     centre = 0.1 * rng.normal(size=robot.nbiases + robot.nweights)
-    m, v = np.zeros(len(centre)), np.zeros(len(centre))
-    last = 100 if environment[0] == "C" else 600
     best, kept = -np.inf, centre
-    for g in range(last):
-        samples = rng.normal(size=(24, len(centre)))
-        scores = robot.evaluate(candidates_around(centre, samples, 0.2), seed + g, 10)
-        if np.mean(scores) >= best:
-            best, kept = np.mean(scores), centre
-        d = descent(gradient(samples, utilities(scores)), centre, 0)
-        centre, m, v = adam(centre, d, m, v, g + 1, 0.1 * (1 - 0.8 * g / last))
+    for part, stepsize in enumerate((0.1, 0.08, 0.06, 0.04)):
+        many = 30 if environment[0] == "C" else 150
+        run = evolve(lambda rows, s: robot.evaluate(rows, s, 10), centre, many, seed + 999 * part,
+                     24, 0.2, stepsize)  # fmt: skip
+        centre = run["centre"]
+        fitness = robot.evaluate(centre[None], seed + 5, 40)[0]
+        if fitness >= best:
+            best, kept = fitness, centre
     return kept
 
 
 # %% starts_again_if_it_must
-# Up to three evolutions from other starts; momentum instead of Adam in the training.
+# Up to three evolutions from other starts.
 def train(environment, seed):
     robot = Robot(environment)
     size, goal = robot.nbiases + robot.nweights, {"CartPole-v0": 198, "Pendulum-v1": -300}
     found = []
     for attempt in range(3):
         rng = np.random.default_rng((seed, attempt))
-        centre, speed = np.zeros(size), np.zeros(size)
+        centre = np.zeros(size)
         centre[robot.nbiases :] = rng.normal(scale=0.1, size=robot.nweights)
-        for g in range(120 if "Cart" in environment else 600):
-            e = rng.standard_normal((20, size))
-            scores = robot.evaluate(candidates_around(centre, e, 0.2), seed + g, episodes=8)
-            speed = 0.9 * speed + 0.1 * gradient(e, utilities(scores))
-            centre = centre + 0.8 * speed
+        centre = evolve(lambda rows, s: robot.evaluate(rows, s, episodes=8), centre,
+                        120 if "Cart" in environment else 600, seed + attempt,
+                        noiseStdDev=0.2, stepsize=0.06)["centre"]  # fmt: skip
         found.append((robot.evaluate(centre[None], seed + 5, episodes=60)[0], centre))
         if found[-1][0] > goal[environment]:
             break
@@ -390,19 +384,18 @@ def train(environment, seed):
 
 
 # %% first_look_at_all_pairs_alone
-# Evaluates pair after pair, and keeps the centre with the best mean of its candidates.
+# Evaluates pair after pair, and keeps the best centre of several evolutions, one after another.
 def train(environment, seed):
     robot, rng = Robot(environment), np.random.default_rng(seed)
     centre = np.zeros(robot.nbiases + robot.nweights)
     centre[robot.nbiases :] = 0.1 * rng.standard_normal(robot.nweights)
-    m, v, best = np.zeros_like(centre), np.zeros_like(centre), (-np.inf, centre)
-    for g in range(80 if "Cart" in environment else 600):
-        samples = rng.standard_normal((16, len(centre)))
-        candidates = candidates_around(centre, samples, 0.2)
-        fitness = np.concatenate(
-            [robot.evaluate(candidates[i : i + 2], seed + g, 10) for i in range(0, 32, 2)]
-        )
-        best = max(best, (fitness.mean(), centre), key=lambda one: one[0])
-        d = descent(gradient(samples, utilities(fitness)), centre, 0)
-        centre, m, v = adam(centre, d, m, v, g + 1, 0.05)
-    return max(best, (robot.evaluate(centre[None], seed, 50)[0], centre), key=lambda one: one[0])[1]
+    found = [(-np.inf, 0, centre)]
+
+    def evaluate(candidates, s):
+        pairs = [robot.evaluate(candidates[i : i + 2], s, 10) for i in range(0, 32, 2)]
+        return np.concatenate(pairs)
+
+    for stretch in range(2 if "Cart" in environment else 12):
+        centre = evolve(evaluate, centre, 50, seed + 50 * stretch, 16, 0.2, 0.05)["centre"]
+        found.append((robot.evaluate(centre[None], seed, 50)[0], stretch, centre))
+    return max(found)[2]

@@ -3,7 +3,7 @@
 
 # %% clones loses 3.1
 # Gives all individuals the same weights, but each individual should have random weights of its own.
-# says: some weights are equal
+# says: this
 def initial_population(popsize, nbiases, nweights, seed):
     weights = 0.1 * np.random.default_rng(seed).standard_normal(nweights)
     return np.tile(np.concatenate([np.zeros(nbiases), weights]), (popsize, 1))
@@ -11,7 +11,7 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 # %% seed_ignored loses 3.1
 # Ignores the seed: the same seed gives another population in each call, but it should give the same one.
-# says: other numbers when called again
+# says: this
 def initial_population(popsize, nbiases, nweights, seed):
     rng = np.random.default_rng()
     weights = 0.1 * rng.standard_normal((popsize, nweights))
@@ -20,7 +20,7 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 # %% ten_times_as_large loses 3.1
 # Draws weights with standard deviation 1 instead of 0.1.
-# says: have standard deviation 1.0
+# says: this
 def initial_population(popsize, nbiases, nweights, seed):
     weights = np.random.default_rng(seed).standard_normal((popsize, nweights))
     return np.hstack([np.zeros((popsize, nbiases)), weights])
@@ -35,7 +35,7 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 # %% ranks_instead_of_numbers loses 3.2
 # Returns the place of each individual in the ranking, but the numbers of the individuals, the best first, are asked for.
-# says: argsort
+# says: this
 def rank(fitness):
     return np.argsort(np.argsort(-np.asarray(fitness), kind="stable"), kind="stable")
 
@@ -124,7 +124,7 @@ def next_population(population, fitness, mutrate, rng):
 
 # %% in_place loses 3.3
 # Changes the array `population` that it is given, but should return a new array.
-# says: changed the population that it was given
+# says: this
 def next_population(population, fitness, mutrate, rng):
     ranking = rank(fitness)
     half = len(population) // 2
@@ -146,7 +146,7 @@ def next_population(population, fitness, mutrate, rng):
 
 # %% best_of_the_last_generation loses 3.4
 # Returns the best of the last generation and its fitness, but the best of all generations is asked for.
-# says: the last of 12 values, but the largest
+# says: this
 def evolve(evaluate, population, generations, mutrate, seed):
     rng = np.random.default_rng(seed)
     history = []
@@ -161,7 +161,7 @@ def evolve(evaluate, population, generations, mutrate, seed):
 
 # %% same_noise_each_generation loses 3.4
 # Adds the same noise in each generation, but each generation should get new random numbers from one generator, made before the loop.
-# says: the same noise was added|holds an individual twice
+# says: this
 def evolve(evaluate, population, generations, mutrate, seed):
     best, best_fitness, history = population[0], -np.inf, []
     for generation in range(generations):
@@ -191,7 +191,7 @@ def hill_climb(evaluate, start, generations, mutrate, seed):
 
 # %% population_deviation loses 3.6
 # Divides by the number of replications instead of that number minus one.
-# says: n and n - 1 were mixed up
+# says: this
 # -     histories = np.array([run["history"] for run in runs])
 # -     many = len(seeds) > 1
 # +     histories = np.array([run["history"] for run in runs])
@@ -268,7 +268,7 @@ def train(environment, seed):
 
 # %% neighbours_share_individuals loses 3.1
 # Draws individual i from seed + i, so neighbouring seeds share individuals, but two seeds should have none in common.
-# says: individual of the population of seed
+# says: this
 def initial_population(popsize, nbiases, nweights, seed):
     rows = [np.random.default_rng(seed + i).standard_normal(nweights) for i in range(popsize)]
     return np.hstack([np.zeros((popsize, nbiases)), 0.1 * np.array(rows)])
@@ -276,21 +276,20 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 # %% plain_argsort loses 3.2
 # Ranks in rising order, as np.argsort does, so that the worst comes first.
-# says: The worst comes first|The order rises
+# says: this
 def rank(fitness):
     return np.argsort(fitness)
 
 
 # %% argsort_without_stable loses 3.2
 # Keeps the order of equals only if they are few, as np.argsort does without kind="stable", but the one with the lower number should always come first.
-# says: only with kind='stable'
 def rank(fitness):
     return np.argsort(-np.asarray(fitness))
 
 
 # %% selects_by_a_threshold loses 3.3
 # Keeps every individual whose fitness is at least the middle value. If some are equal, these can be more than half, but exactly half should stay.
-# says: but it should be 6
+# says: this
 def next_population(population, fitness, mutrate, rng):
     middle = np.sort(fitness)[len(fitness) // 2]
     parents, following = population[fitness >= middle], population.copy()
@@ -313,7 +312,7 @@ def next_population(population, fitness, mutrate, rng):
 
 # %% loop_without_seed loses 3.4
 # Ignores the seed when it makes the generator: the same arguments give another run each time, but they should give the same one.
-# says: called again with the same arguments
+# says: this
 # -     rng = np.random.default_rng(seed)
 # -     best, best_fitness, history = population[0], -np.inf, []
 # +     rng = np.random.default_rng()
@@ -322,7 +321,7 @@ def next_population(population, fitness, mutrate, rng):
 
 # %% loop_with_one_seed loses 3.4
 # Uses the same random numbers for every seed, but the generator should be made from the seed.
-# says: as with another seed
+# says: this
 # -     rng = np.random.default_rng(seed)
 # -     best, best_fitness, history = population[0], -np.inf, []
 # +     rng = np.random.default_rng(0)
@@ -331,21 +330,20 @@ def next_population(population, fitness, mutrate, rng):
 
 # %% climber_with_own_rate loses 3.5
 # Uses 0.1 as the mutation rate instead of the argument mutrate.
-# says: the noise of all generations has standard deviation
 # -     return evolve(evaluate, np.array([start, start]), generations, mutrate, seed)
 # +     return evolve(evaluate, np.array([start, start]), generations, 0.1, seed)
 
 
 # %% runs_each_twice loses 3.6
 # Runs each experiment twice, but each should be run once.
-# says: run each once
+# says: this
 # -         "best": [run["fitness"] for run in runs],
 # +         "best": [experiment(seed)["fitness"] for seed in seeds],
 
 
 # %% one_run_and_noise loses 3.7
 # Evolves with seed 1 whatever the seed is and adds a little noise to the result, but the whole evolution should follow from the seed.
-# says: robot.evaluate
+# says: this
 _evolve_and_choose = train
 
 
@@ -356,7 +354,7 @@ def train(environment, seed):
 
 # %% one_run_and_its_relatives loses 3.7
 # Evolves with seed 1 whatever the seed is and chooses among slightly changed copies, but the whole evolution should follow from the seed.
-# says: nearly the same parameters as another seed
+# says: this
 _evolve_and_choose = train
 
 
@@ -368,7 +366,6 @@ def train(environment, seed):
 
 # %% training_without_seed loses 3.7
 # Ignores the seed: the same seed gives another controller in each call, but it should give the same one.
-# says: when it was called again
 _evolve_and_choose = train
 
 
@@ -494,21 +491,21 @@ def evolve(evaluate, population, generations, mutrate, seed, history=[]):  # noq
 
 # %% rate_of_a_variance loses 3.1
 # Takes 0.1 for the variance of the weights, but it should be their standard deviation.
-# says: not the variance
+# says: this
 # -     weights = 0.1 * rng.standard_normal((popsize, nweights))
 # +     weights = np.sqrt(0.1) * rng.standard_normal((popsize, nweights))
 
 
 # %% positive_weights loses 3.1
 # Makes all weights positive, but about half of them should be negative.
-# says: same sign
+# says: this
 # -     weights = 0.1 * rng.standard_normal((popsize, nweights))
 # +     weights = 0.1 * np.abs(rng.standard_normal((popsize, nweights)))
 
 
 # %% cached_population loses 3.1
 # Returns the same array again if it is called with the same arguments, but each call should make a new array.
-# says: gives another population
+# says: this
 _made, _fresh = {}, initial_population
 
 
@@ -521,7 +518,7 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 # %% spread_by_size loses 3.1
 # Divides the weights by the root of nweights, but their standard deviation should be 0.1 for any nweights.
-# says: root of the 200 weights
+# says: this
 # -     weights = 0.1 * rng.standard_normal((popsize, nweights))
 # +     weights = rng.standard_normal((popsize, nweights)) / np.sqrt(nweights)
 
@@ -534,7 +531,7 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 # %% rate_as_variance loses 3.3
 # Takes mutrate for the variance of the noise, but it should be its standard deviation.
-# says: differ by
+# says: this
 # -     following[worst] = population[best] + mutrate * noise
 # +     following[worst] = population[best] + np.sqrt(mutrate) * noise
 
@@ -547,7 +544,7 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 # %% best_is_a_view loses 3.4
 # Returns what stands in the best individual's row after the last generation, but should return a copy of that individual as it was.
-# says: keep a copy
+# says: this
 # -     best, best_fitness, history = population[0], -np.inf, []
 # +     population = population.copy()
 # +     best, best_fitness, history = population[0], -np.inf, []
@@ -559,14 +556,14 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 # %% mean_history loses 3.4
 # Records the mean fitness of each generation in the history instead of the highest.
-# says: mean fitness of each
+# says: this
 # -         history.append(float(fitness[winner]))
 # +         history.append(float(np.mean(fitness)))
 
 
 # %% population_before_the_last loses 3.4
 # Returns the population of the last evaluation, but selection and mutation should follow this evaluation, too.
-# says: evaluated in the last
+# says: this
 # -         population = next_population(population, fitness, mutrate, rng)
 # -     return {"best": best, "fitness": best_fitness, "history": history, "population": population}
 # +         last = population
@@ -583,7 +580,7 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 # %% seed_of_each_generation loses 3.4
 # Makes a new generator from seed + g in each generation, so neighbouring seeds share noise, but one generator should be made from seed before the loop.
-# says: make one generator from
+# says: this
 # -         fitness = evaluate(population, seed + generation)
 # +         rng = np.random.default_rng(seed + generation)
 # +         fitness = evaluate(population, seed + generation)
@@ -591,28 +588,28 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 # %% running_best loses 3.6
 # Uses the best fitness so far of each replication, but the highest fitness of each generation is asked for.
-# says: best so far
+# says: this
 # -     histories = np.array([run["history"] for run in runs])
 # +     histories = np.maximum.accumulate([run["history"] for run in runs], axis=1)
 
 
 # %% last_fitness loses 3.6
 # Returns the last value of each "history" as "best" instead of the "fitness" of each run.
-# says: last values
+# says: this
 # -         "best": [run["fitness"] for run in runs],
 # +         "best": [run["history"][-1] for run in runs],
 
 
 # %% medians loses 3.6
 # Takes the median of the replications instead of their mean.
-# says: median
+# says: this
 # -         "mean": histories.mean(axis=0),
 # +         "mean": np.median(histories, axis=0),
 
 
 # %% seeds_counted loses 3.6
 # Runs the experiment with seeds[0], seeds[0] + 1, ... instead of the seeds in the list.
-# says: not in the list
+# says: this
 # -     runs = [experiment(seed) for seed in seeds]
 # +     runs = [experiment(seeds[0] + i) for i in range(len(seeds))]
 
@@ -661,21 +658,21 @@ def next_population(population, fitness, mutrate, rng):
 
 # %% squared_rate loses 3.3
 # Squares mutrate, but mutrate itself should be the standard deviation of the noise.
-# says: mutrate itself
+# says: this
 # -     following[worst] = population[best] + mutrate * noise
 # +     following[worst] = population[best] + mutrate**2 * noise
 
 
 # %% a_single_run_divides_by_zero loses 3.6
 # Returns NaN as the deviation of a single replication instead of 0.
-# says: 0 for a single replication
+# says: this
 # -         "deviation": histories.std(axis=0, ddof=1) if many else np.zeros(histories.shape[1]),
 # +         "deviation": histories.std(axis=0, ddof=1) if many else np.full(histories.shape[1], np.nan),
 
 
 # %% best_from_the_last_row loses 3.4
 # Takes the last row of the next population for the best individual, but the best of the population that was evaluated is asked for.
-# says: This is row \d+ of generation
+# says: this
 # -         if fitness[winner] > best_fitness:
 # -             best, best_fitness = population[winner].copy(), float(fitness[winner])
 # -         population = next_population(population, fitness, mutrate, rng)
@@ -686,7 +683,6 @@ def next_population(population, fitness, mutrate, rng):
 
 # %% evaluates_the_variation_alone loses 3.5
 # Evaluates only the variation and keeps the old fitness of the solution, but both should be evaluated in each generation.
-# says: what evaluate was given
 _hill_climb_3 = hill_climb
 
 
@@ -702,7 +698,7 @@ def hill_climb(evaluate, *arguments, **options):
 
 # %% returns_the_worst_of_the_last loses 3.7
 # Returns the worst candidate of the last evaluation instead of the best.
-# says: look at how you choose the one that you return
+# says: this
 # -     return run["population"][rank(fitness)[0]]
 # +     return run["population"][np.argsort(fitness)[0]]
 

@@ -3,7 +3,7 @@
 
 # %% noise_forgotten loses 8.1
 # Leaves out the factor noiseStdDev: adds samples[b] itself to the centre, and subtracts it, instead of noiseStdDev * samples[b].
-# says: noiseStdDev is left out
+# says: this
 def candidates_around(centre, samples, noiseStdDev):
     both = np.stack([centre + samples, centre - samples], axis=1)
     return both.reshape(-1, len(centre))
@@ -11,14 +11,14 @@ def candidates_around(centre, samples, noiseStdDev):
 
 # %% plus_before_minus loses 8.1
 # Returns all plus candidates first and then all minus candidates, but the two candidates of a sample should be neighbours (rows 2 b and 2 b + 1).
-# says: two of a sample should be neighbours
+# says: this
 def candidates_around(centre, samples, noiseStdDev):
     return np.concatenate([centre + noiseStdDev * samples, centre - noiseStdDev * samples])
 
 
 # %% best_is_lowest loses 8.2
 # Gives the best candidate the utility -0.5 and the worst 0.5 instead of the other way round.
-# says: reverse order
+# says: this
 _utilities = utilities
 
 
@@ -28,7 +28,7 @@ def utilities(fitness):
 
 # %% order_for_ranks loses 8.2
 # Takes the order of the candidates (as np.argsort gives it) for their ranks, but number i should come from the rank of candidate i.
-# says: An order and the places in it
+# says: this
 def utilities(fitness):
     return np.argsort(fitness, kind="stable") / (len(fitness) - 1) - 0.5
 
@@ -45,14 +45,14 @@ def utilities(fitness):
 
 # %% divided_by_samplesize loses 8.3
 # Divides the sum by samplesize instead of by 2 * samplesize, so the gradient is twice as long as it should be.
-# says: twice what was expected
+# says: this
 def gradient(samples, utilities):
     return (utilities[0::2] - utilities[1::2]) @ samples / len(samples)
 
 
 # %% summed_utilities loses 8.3
 # Adds the two utilities of a sample, but the utility of its minus candidate should be subtracted from that of its plus candidate.
-# says: utilities of a sample are added
+# says: this
 def gradient(samples, utilities):
     return (utilities[0::2] + utilities[1::2]) @ samples / len(utilities)
 
@@ -74,7 +74,7 @@ def descent(gradient, centre, wdecay):
 
 # %% decay_pushes_away loses 8.4
 # Subtracts the pull instead of adding it, so that the decay would push parameters away from 0 instead of towards it.
-# says: The decay has the wrong sign
+# says: this
 # -     return -gradient + 0.005 * pull
 # +     return -gradient - 0.005 * pull
 
@@ -113,7 +113,7 @@ def adam(centre, d, m, v, t, stepsize):
 
 # %% no_bias_correction loses 8.5
 # Leaves out the bias correction, but for the step, m should be divided by 1 - 0.9^t and v by 1 - 0.999^t.
-# says: The correction of m and v .* is left out
+# says: this
 # -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
 # -     return centre - stepsize * step, m, v
 # +     return centre - stepsize * m / (np.sqrt(v) + 1e-8), m, v
@@ -128,7 +128,7 @@ def adam(centre, d, m, v, t, stepsize):
 
 # %% decay_forgotten loses 8.6
 # Evolves without weight decay, whatever wdecay is, but `descent` should get the wdecay that evolve is given.
-# says: not handed on
+# says: this
 _evolve = evolve
 
 
@@ -144,7 +144,7 @@ def evolve(evaluate, centre, generations, seed, **hyperparameters):
 
 # %% history_of_the_best loses 8.6
 # Keeps the fitness of the best candidate in the history instead of the mean fitness of all candidates.
-# says: fitness of the best candidate
+# says: this
 _evolve = evolve
 
 
@@ -278,7 +278,6 @@ def utilities(fitness):
 
 # %% descent_scales_the_centre loses 8.4
 # Changes the array `centre` that it is given if wdecay is 1, but the arguments should stay as they are.
-# says: changed an array
 _descent = descent
 
 
@@ -311,7 +310,7 @@ def evolve(
 
 # %% evaluates_twice loses 8.6
 # Calls evaluate twice in each generation, but one call is asked for: both the utilities and the history should use what it returns.
-# says: called evaluate
+# says: this
 # -         history.append(float(np.mean(fitness)))
 # +         again = evaluate(candidates_around(centre, samples, noiseStdDev), seed + generation)
 # +         history.append(float(np.mean(again)))
@@ -319,7 +318,7 @@ def evolve(
 
 # %% first_centre_moves loses 8.6
 # Changes the array `centre` that it is given, but the first centre should stay as it is.
-# says: changed the centre
+# says: this
 # -         centre, m, v = adam(centre, d, m, v, generation + 1, stepsize)
 # +         centre[:], m, v = adam(centre, d, m, v, generation + 1, stepsize)
 
@@ -336,7 +335,6 @@ def stability(curve):
 
 # %% the_curve_is_shifted loses 8.7
 # Changes the array `curve` that it is given, but it should stay as it is.
-# says: changed an array
 _stability = stability
 
 
@@ -348,7 +346,7 @@ def stability(curve):
 
 # %% another_strategy_and_a_show_call loses 8.8
 # Finds the controller by the strategy of exercise 3 and calls evolve for one generation with steps of 0, but OpenAI-ES should find it.
-# says: should be evolved by OpenAI-ES
+# says: this
 def train(environment, seed):
     robot, rng = Robot(environment), np.random.default_rng(seed)
     generations, noise = (60, 0.3) if "CartPole" in environment else (400, 0.1)
@@ -362,7 +360,7 @@ def train(environment, seed):
 
 # %% short_steps_from_a_found_centre loses 8.8
 # Finds the controller by the strategy of exercise 3 and hardly moves it by OpenAI-ES with tiny steps, but OpenAI-ES should find it.
-# says: should be evolved by OpenAI-ES
+# says: this
 def train(environment, seed):
     robot, rng = Robot(environment), np.random.default_rng(seed)
     generations, noise = (60, 0.3) if "CartPole" in environment else (400, 0.1)
@@ -377,7 +375,6 @@ def train(environment, seed):
 
 # %% the_best_of_the_pairs loses 8.8
 # Moves the centre to the best candidate so far instead of along the estimated gradient.
-# says: Return a centre: the steps of the algorithm lead to it
 def train(environment, seed):
     robot, rng = Robot(environment), np.random.default_rng(seed)
     centre = 0.1 * rng.standard_normal(robot.nbiases + robot.nweights)
@@ -393,7 +390,7 @@ def train(environment, seed):
 
 # %% one_run_for_all_seeds loses 8.8
 # Evolves in the same way for every seed, but another seed should give another evolution.
-# says: begin with the same candidates
+# says: this
 _train = train
 
 
@@ -403,7 +400,7 @@ def train(environment, seed):
 
 # %% remembered_run loses 8.8
 # Keeps the centre of the first training and returns it for every seed, but each call should evolve a new one.
-# says: without any call of robot.evaluate
+# says: this
 FOUND = {}
 _train = train
 
@@ -416,7 +413,6 @@ def train(environment, seed):
 
 # %% seeds_of_its_own loses 8.8
 # Draws random numbers that do not follow from the seed, so that no training can be repeated, but the seed should decide about all of them.
-# says: begins with other candidates
 _train = train
 
 
@@ -787,7 +783,7 @@ def candidates_around(centre, samples, noiseStdDev):
 
 # %% same_rank_for_equals loses 8.2
 # Gives all equal candidates the lowest of their ranks, but only the first of them should get it, and the others higher ones in their order.
-# says: lowest rank
+# says: this
 def utilities(fitness):
     fitness = np.asarray(fitness)
     ranks = np.searchsorted(np.sort(fitness), fitness)
@@ -796,7 +792,7 @@ def utilities(fitness):
 
 # %% rank_by_dictionary loses 8.2
 # Gives all equal candidates the highest of their ranks, but only the last of them should get it, and the others lower ones in their order.
-# says: highest rank
+# says: this
 def utilities(fitness):
     rank = {value: i for i, value in enumerate(sorted(fitness))}
     return np.array([rank[value] for value in fitness]) / (len(fitness) - 1) - 0.5
@@ -814,7 +810,6 @@ def utilities(fitness):
 
 # %% sorts_the_argument loses 8.2
 # Changes the array `fitness` that it is given, but it should stay as it is.
-# says: changed an array
 def utilities(fitness):
     order = np.argsort(fitness, kind="stable")
     u = np.empty(len(order))
@@ -835,7 +830,6 @@ def utilities(fitness):
 
 # %% all_equal_zero loses 8.2
 # Returns zeros if all candidates have the same fitness, but equals should have different ranks, too, in their order.
-# says: All get 0
 def utilities(fitness):
     fitness = np.asarray(fitness)
     if fitness.max() == fitness.min():
@@ -896,7 +890,6 @@ def descent(gradient, centre, wdecay):
 
 # %% negates_in_place loses 8.4
 # Changes the array `gradient` that it is given, but the arguments should stay as they are.
-# says: changed an array
 def descent(gradient, centre, wdecay):
     gradient *= -1
     if wdecay == 1:
@@ -943,7 +936,7 @@ def adam(centre, d, m, v, t, stepsize):
 
 # %% truncated_smooth loses 8.7
 # Cuts the means of whole numbers off to whole numbers, but their fractions should stay.
-# says: cut off
+# says: this
 def smooth(curve, width):
     curve = np.asarray(curve)
     out = np.zeros_like(curve[width - 1 :])
@@ -954,7 +947,7 @@ def smooth(curve, width):
 
 # %% cumulated_sum_loses_first loses 8.7
 # Leaves out the first mean, that of the first width numbers: there should be len(curve) - width + 1 means.
-# says: first one is missing
+# says: this
 def smooth(curve, width):
     sums = np.cumsum(curve, dtype=float)
     return (sums[width:] - sums[:-width]) / width
@@ -962,7 +955,7 @@ def smooth(curve, width):
 
 # %% rounded_drop loses 8.7
 # Moves the limits of the verdicts to about 0.15 and 0.35 (rounding the drop to one digit does so) instead of deciding at exactly 0.1 and 0.3.
-# says: as if rounded to one digit
+# says: this
 # -     if drop <= 0.1:
 # +     if round(drop, 1) <= 0.1:
 # -     elif drop <= 0.3:
@@ -977,14 +970,14 @@ def smooth(curve, width):
 
 # %% start_without_seed loses 8.8
 # Starts from the same centre for every seed, but the first weights should be drawn from the seed.
-# says: begin at the same centre
+# says: this
 # -     weights = 0.1 * np.random.default_rng(seed).standard_normal(robot.nweights)
 # +     weights = 0.1 * np.random.default_rng(0).standard_normal(robot.nweights)
 
 
 # %% best_candidate loses 8.8
 # Returns the best candidate of all instead of a centre.
-# says: returned a candidate
+# says: this
 # -     def evaluate(candidates, seed):
 # -         return robot.evaluate(candidates, seed, episodes=10)
 # +     best = [-np.inf, centre]
@@ -1000,7 +993,6 @@ def smooth(curve, width):
 
 # %% climbs_a_hill loses 8.8
 # Moves the centre to the best candidate of each generation instead of along the estimated gradient.
-# says: returned a candidate
 # -     run = evolve(evaluate, centre, generations, seed, noiseStdDev=0.2, stepsize=0.05)
 # -     return run["centre"]
 # +     rng, best = np.random.default_rng(seed), -np.inf
@@ -1013,7 +1005,7 @@ def smooth(curve, width):
 
 # %% unstable_in_evolve loses 8.6
 # Ranks candidates of equal fitness in another order, but of equals, the one that comes first should get the lower rank, as in `utilities`.
-# says: equal fitness
+# says: this
 # -         d = descent(gradient(samples, utilities(fitness)), centre, wdecay)
 # +         u = np.argsort(np.argsort(fitness)) / (2 * samplesize - 1) - 0.5
 # +         d = descent(gradient(samples, u), centre, wdecay)
@@ -1027,7 +1019,7 @@ def smooth(curve, width):
 
 # %% last_generation_left_out loses 8.6
 # Leaves out the step of the last generation, but the centre after that step should be returned.
-# says: last step is missing
+# says: this
 # -         centre, m, v = adam(centre, d, m, v, generation + 1, stepsize)
 # +         if generation < generations - 1:
 # +             centre, m, v = adam(centre, d, m, v, generation + 1, stepsize)
@@ -1035,7 +1027,7 @@ def smooth(curve, width):
 
 # %% default_noise loses 8.6
 # Uses the noiseStdDev 0.02, whatever is asked for, but candidates_around should get the noiseStdDev that evolve is given.
-# says: noiseStdDev is not handed on
+# says: this
 # -         fitness = evaluate(candidates_around(centre, samples, noiseStdDev), seed + generation)
 # +         fitness = evaluate(candidates_around(centre, samples, 0.02), seed + generation)
 
@@ -1060,21 +1052,21 @@ def smooth(curve, width):
 
 # %% percent loses 8.7
 # Returns the drop in percent, but a share is asked for (0.2, not 20).
-# says: percent
+# says: this
 # -     return {"drop": drop, "bottom": bottom, "peak": peak, "verdict": verdict}
 # +     return {"drop": 100 * drop, "bottom": bottom, "peak": peak, "verdict": verdict}
 
 
 # %% drop_of_two_places loses 8.7
 # Rounds the drop to two decimal places, but it should not be rounded.
-# says: drop is rounded, but
+# says: this
 # -     drop = float(falls[bottom] / height) if height > 0 else 0.0
 # +     drop = round(float(falls[bottom] / height), 2) if height > 0 else 0.0
 
 
 # %% short_verdict loses 8.7
 # Shortens the verdicts to 'mild' and 'severe' instead of 'mild regressions' and 'severe regressions'.
-# says: 'mild'
+# says: this
 # -     verdict = "severe regressions"
 # +     verdict = "severe"
 # -         verdict = "mild regressions"
@@ -1096,7 +1088,6 @@ def descent(gradient, centre, wdecay):
 
 # %% best_plus_side loses 8.8
 # Returns the best plus candidate of the last generation instead of a centre.
-# says: returned a candidate
 # -     def evaluate(candidates, seed):
 # -         return robot.evaluate(candidates, seed, episodes=10)
 # +     last = [centre]
@@ -1111,14 +1102,14 @@ def descent(gradient, centre, wdecay):
 
 # %% same_samples_for_all_seeds loses 8.8
 # Uses the same samples for every seed, but the samples should follow from the seed, as the first weights do.
-# says: the same samples
+# says: this
 # -     run = evolve(evaluate, centre, generations, seed, noiseStdDev=0.2, stepsize=0.05)
 # +     run = evolve(evaluate, centre, generations, 7, noiseStdDev=0.2, stepsize=0.05)
 
 
 # %% from_nothing loses 8.8
 # Starts from zeros for every seed, but the first weights should be drawn from the seed.
-# says: begin at the same centre
+# says: this
 # -     centre = np.concatenate([np.zeros(robot.nbiases), weights])
 # +     centre = np.zeros(robot.nbiases + robot.nweights)
 
@@ -1131,7 +1122,7 @@ def descent(gradient, centre, wdecay):
 
 # %% minus_first_and_scaled_centre loses 8.1
 # Multiplies the centre by noiseStdDev, too, and puts the minus candidate first; only the samples should be multiplied, and the plus candidate should come first.
-# says: multiplied by noiseStdDev, too,.* Minus comes before plus
+# says: this
 def candidates_around(centre, samples, noiseStdDev):
     rows = []
     for e in samples:
@@ -1164,7 +1155,7 @@ def utilities(fitness):
 
 # %% scaled_fitness loses 8.2
 # Scales the fitness itself to the range from -0.5 to 0.5, but only the ranks should count.
-# says: only its ranks
+# says: this
 def utilities(fitness):
     span = np.ptp(fitness) or 1.0
     return (np.asarray(fitness) - np.min(fitness)) / span - 0.5
@@ -1181,14 +1172,14 @@ def utilities(fitness):
 
 # %% added_and_by_samplesize loses 8.3
 # Adds the two utilities of a sample instead of subtracting the second from the first, and divides by samplesize instead of by 2 * samplesize.
-# says: are added.* divided by samplesize
+# says: this
 def gradient(samples, utilities):
     return (utilities[0::2] + utilities[1::2]) @ samples / len(samples)
 
 
 # %% square_and_size_for_decay loses 8.4
 # Takes the square of the centre (wdecay 1) and its absolute value (wdecay 2) for the pull instead of the centre and its sign.
-# says: square of the centre
+# says: this
 # -     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]
 # +     pull = {0: np.zeros(len(centre)), 1: centre**2, 2: np.abs(centre)}[wdecay]
 
@@ -1216,7 +1207,7 @@ def gradient(samples, utilities):
 
 # %% shares_not_raised loses 8.5
 # Multiplies 0.9 and 0.999 by t in the bias correction instead of taking their powers, 0.9^t and 0.999^t.
-# says: raised to
+# says: this
 # -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
 # +     step = (m / (1 - 0.9 * t)) / (np.sqrt(np.abs(v / (1 - 0.999 * t))) + 1e-8)
 
@@ -1230,7 +1221,7 @@ def gradient(samples, utilities):
 
 # %% best_candidate_of_all loses 8.6
 # Returns the best candidate of all generations, but the centre after the last generation is asked for.
-# says: best of all candidates|Returns the best candidate
+# says: this
 def evolve(
     evaluate, centre, generations, seed, samplesize=20, noiseStdDev=0.02, stepsize=0.01, wdecay=0
 ):
@@ -1250,7 +1241,7 @@ def evolve(
 
 # %% fitness_of_the_new_centre loses 8.6
 # Keeps the fitness of the centre after the step in the history instead of the mean fitness of the candidates.
-# says: centre after the step
+# says: this
 # -         history.append(float(np.mean(fitness)))
 # -         d = descent(gradient(samples, utilities(fitness)), centre, wdecay)
 # -         centre, m, v = adam(centre, d, m, v, generation + 1, stepsize)
@@ -1261,27 +1252,27 @@ def evolve(
 
 # %% one_window_too_few loses 8.7
 # Leaves out the last mean, that of the last width numbers: there should be len(curve) - width + 1 means.
-# says: last window
+# says: this
 def smooth(curve, width):
     return [float(np.mean(curve[i : i + width])) for i in range(len(curve) - width)]
 
 
 # %% peak_of_the_whole_curve loses 8.7
 # Takes the highest value of the whole curve for the peak instead of the highest value up to the bottom.
-# says: this|of the whole curve
+# says: this
 # -     peak = int(np.argmax(curve[: bottom + 1]))
 # +     peak = int(np.argmax(curve))
 
 
 # %% returns_the_dict_of_evolve loses 8.8
 # Returns the whole dict of evolve, but only its centre is asked for.
-# says: return its 'centre'
+# says: this
 # -     return run["centre"]
 # +     return run
 
 # %% samples_of_length_one loses 8.1
 # Divides each sample by its length, but the samples should be used as they are.
-# says: used as they are
+# says: this
 # -     candidates[0::2] = centre + noiseStdDev * samples
 # -     candidates[1::2] = centre - noiseStdDev * samples
 # +     samples = samples / np.linalg.norm(samples, axis=1, keepdims=True)
@@ -1296,71 +1287,69 @@ def smooth(curve, width):
 
 # %% one_number_for_all loses 8.3
 # Adds everything up to a single number, but the gradient should have one number for each parameter: add up over the samples only.
-# says: single number
+# says: this
 # -     return weights @ samples / len(utilities)
 # +     return np.sum(weights[:, None] * samples) / len(utilities)
 
 # %% sign_of_the_gradient loses 8.4
 # Takes the sign of the gradient for the pull of wdecay 2 instead of the sign of the centre.
-# says: sign of the (gradient|centre)
+# says: this
 # -     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]
 # +     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(gradient)}[wdecay]
 
 # %% centre_of_length_one loses 8.4
 # Divides the centre by its length for the pull of wdecay 1, but 0.005 * centre is asked for.
-# says: divided by (its|the) length
+# says: this
 # -     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]
 # +     length = np.linalg.norm(centre)
 # +     pull = {0: np.zeros(len(centre)), 1: centre / length, 2: np.sign(centre)}[wdecay]
 
 # %% noise_in_the_samples loses 8.6
 # Multiplies the samples by noiseStdDev before candidates_around does so, too, but the samples should be used as rng draws them.
-# says: times as far from the right centre|comes in twice
+# says: this
 # -         samples = rng.standard_normal((samplesize, len(centre)))
 # +         samples = noiseStdDev * rng.standard_normal((samplesize, len(centre)))
 
 # %% one_neighbour_more loses 8.7
 # Takes width + 1 numbers for each mean (but for the last, at the end of the curve) instead of width.
-# says: this|one more
+# says: this
 # -     return np.convolve(curve, np.full(width, 1 / width), mode="valid")
 # +     places = range(len(curve) - width + 1)
 # +     return np.array([np.mean(curve[i : i + width + 1]) for i in places])
 
 # %% size_of_the_peak loses 8.7
 # Divides the fall by the absolute value of the peak instead of by max - min of the whole curve.
-# says: absolute value of the peak|height that it fell from
+# says: this
 # -     height = curve.max() - curve.min()
 # +     height = abs(curve[peak])
 
 # %% severe_from_a_half loses 8.7
 # Calls drops between 0.3 and about 0.5 'mild regressions', but every drop of more than 0.3 should be 'severe regressions'.
-# says: should change at 0.3
+# says: this
 # -     elif drop <= 0.3:
 # +     elif drop <= 0.5:
 
 # %% returns_the_first_centre loses 8.8
 # Returns the first centre, where the evolution begins, instead of the one to which it leads.
-# says: the first centre of these
+# says: this
 # -     return run["centre"]
 # +     return centre
 
 # %% minimises_fitness loses 8.8
 # Moves the centre to where fitness is lower (as with the fitness negated), but fitness should rise.
-# says: fitness should rise
 # -         return robot.evaluate(candidates, seed, episodes=10)
 # +         return -robot.evaluate(candidates, seed, episodes=10)
 
 
 # %% last_fall_with_its_peak loses 8.7
 # Takes the last of equal falls, with its peak, but the first one is asked for.
-# says: with its peak
+# says: this
 # -     bottom = int(np.argmax(falls))
 # +     bottom = len(falls) - 1 - int(np.argmax(falls[::-1])) if falls.any() else 0
 
 
 # %% mean_of_three_centres loses 8.8
 # Returns the mean of the centres of three evolutions, but one of these centres is asked for.
-# says: none of their centres
 # -     run = evolve(evaluate, centre, generations, seed, noiseStdDev=0.2, stepsize=0.05)
 # -     return run["centre"]
 # +     noise = {"noiseStdDev": 0.2, "stepsize": 0.05}
@@ -1410,7 +1399,6 @@ def utilities(fitness):
 
 # %% unstable_order_of_equals loses 8.2
 # Gives equal candidates their ranks in another order (as np.argsort without kind='stable' may do), but of equals, the one that comes first should get the lower rank.
-# says: in another order
 def utilities(fitness):
     fitness = np.asarray(fitness, dtype=float)
     order = np.argsort(fitness)
@@ -1467,3 +1455,277 @@ def candidates_around(centre, samples, noiseStdDev):
 # Subtracts 0.005 where the centre is 0 (wdecay 2), but there should be no pull on a parameter that is 0.
 # -     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]
 # +     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.where(centre > 0, 1.0, -1.0)}[wdecay]
+
+
+# %% half_as_far loses 8.1
+# Puts the candidates half as far from the centre as noiseStdDev * samples[b].
+# -     candidates[0::2] = centre + noiseStdDev * samples
+# -     candidates[1::2] = centre - noiseStdDev * samples
+# +     candidates[0::2] = centre + noiseStdDev * samples / 2
+# +     candidates[1::2] = centre - noiseStdDev * samples / 2
+
+
+# %% square_of_the_noise loses 8.1
+# Multiplies the samples by the square of noiseStdDev instead of by noiseStdDev itself.
+# -     candidates[0::2] = centre + noiseStdDev * samples
+# -     candidates[1::2] = centre - noiseStdDev * samples
+# +     candidates[0::2] = centre + noiseStdDev**2 * samples
+# +     candidates[1::2] = centre - noiseStdDev**2 * samples
+
+
+# %% nothing_but_zeros loses 8.2
+# Returns zeros for all candidates, but the utilities should go from -0.5 (the worst) to 0.5 (the best).
+def utilities(fitness):
+    return np.zeros(len(fitness))
+
+
+# %% ranks_not_divided loses 8.2
+# Leaves out the division of the ranks by n - 1.
+def utilities(fitness):
+    return np.argsort(np.argsort(fitness, kind="stable")) - 0.5
+
+
+# %% one_subtracted loses 8.2
+# Subtracts 1 from the divided ranks instead of 0.5.
+def utilities(fitness):
+    return np.argsort(np.argsort(fitness, kind="stable")) / (len(fitness) - 1) - 1
+
+
+# %% middle_rank_subtracted loses 8.2
+# Subtracts the half of n - 1 instead of 0.5 after the division.
+def utilities(fitness):
+    n = len(fitness)
+    return np.argsort(np.argsort(fitness, kind="stable")) / (n - 1) - (n - 1) / 2
+
+
+# %% ranks_around_zero loses 8.2
+# Subtracts the half of n - 1 from the ranks without dividing them by n - 1.
+def utilities(fitness):
+    n = len(fitness)
+    return np.argsort(np.argsort(fitness, kind="stable")) - (n - 1) / 2
+
+
+# %% divided_by_parameters loses 8.3
+# Divides the sum by the number of parameters instead of by 2 * samplesize.
+# -     return weights @ samples / len(utilities)
+# +     return weights @ samples / samples.shape[1]
+
+
+# %% one_candidate_less loses 8.3
+# Divides the sum by 2 * samplesize - 1 instead of by 2 * samplesize.
+# -     return weights @ samples / len(utilities)
+# +     return weights @ samples / (len(utilities) - 1)
+
+
+# %% root_of_the_number loses 8.3
+# Divides the sum by the root of 2 * samplesize instead of by 2 * samplesize itself.
+# -     return weights @ samples / len(utilities)
+# +     return weights @ samples / len(utilities) ** 0.5
+
+
+# %% weights_without_signs loses 8.3
+# Takes the absolute values of the differences of utilities, but the weight of a sample that points downhill should be negative.
+# -     weights = utilities[0::2] - utilities[1::2]
+# +     weights = np.abs(utilities[0::2] - utilities[1::2])
+
+
+# %% squared_weights loses 8.3
+# Takes the squares of the differences of utilities as weights instead of the differences.
+# -     weights = utilities[0::2] - utilities[1::2]
+# +     weights = (utilities[0::2] - utilities[1::2]) ** 2
+
+
+# %% weights_of_one loses 8.3
+# Gives all samples the same weight instead of the difference of their utilities.
+# -     weights = utilities[0::2] - utilities[1::2]
+# +     weights = np.ones(len(samples))
+
+
+# %% samples_backwards loses 8.3
+# Takes the samples in reverse order, but weight b should multiply samples[b].
+# -     return weights @ samples / len(utilities)
+# +     return weights @ samples[::-1] / len(utilities)
+
+
+# %% a_row_for_each_sample loses 8.3
+# Returns a row for each sample, but the weighted samples should be added up.
+# -     return weights @ samples / len(utilities)
+# +     return weights[:, None] * samples / len(utilities)
+
+
+# %% a_number_for_each_sample loses 8.3
+# Adds up over the parameters, but over the samples is asked for: one number for each parameter.
+# -     return weights @ samples / len(utilities)
+# +     return (weights[:, None] * samples).sum(axis=1) / len(utilities)
+
+
+# %% pull_without_decay loses 8.4
+# Adds 0.005 * centre for wdecay 0, too, but there should be no pull.
+# -     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]
+# +     pull = {0: centre, 1: centre, 2: np.sign(centre)}[wdecay]
+
+
+# %% one_pull_for_all loses 8.4
+# Takes the mean of the centre for the pull of all parameters, but each should have a pull of its own.
+# -     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]
+# +     pull = {0: 0, 1: np.mean(centre), 2: np.sign(centre)}[wdecay]
+
+
+# %% pull_in_size_alone loses 8.4
+# Takes the absolute values of the centre for the pull of wdecay 1, so that parameters below 0 go away from 0.
+# -     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]
+# +     pull = {0: 0, 1: np.abs(centre), 2: np.sign(centre)}[wdecay]
+
+
+# %% deviations_averaged loses 8.5
+# Averages the square of d - m in v instead of the square of d.
+# -     v = 0.999 * v + 0.001 * d**2
+# +     v = 0.999 * v + 0.001 * (d - m) ** 2
+
+
+# %% factor_squared loses 8.5
+# Squares 0.001 * d in v, but 0.001 should multiply the square of d.
+# -     v = 0.999 * v + 0.001 * d**2
+# +     v = 0.999 * v + (0.001 * d) ** 2
+
+
+# %% signs_averaged loses 8.5
+# Averages the sign of d in m instead of d itself.
+# -     m = 0.9 * m + 0.1 * d
+# +     m = 0.9 * m + 0.1 * np.sign(d)
+
+
+# %% step_by_the_sign loses 8.5
+# Makes the step with the sign of m instead of the corrected m.
+# -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
+# +     step = np.sign(m) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
+
+
+# %% step_by_the_square loses 8.5
+# Makes the step with the square of d instead of its mean v.
+# -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
+# +     step = (m / (1 - 0.9**t)) / (np.sqrt(d**2) + 1e-8)
+
+
+# %% one_size_for_all loses 8.5
+# Makes the step with the mean of v over all parameters instead of each one's own v.
+# -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
+# +     step = (m / (1 - 0.9**t)) / (np.sqrt(v.mean() / (1 - 0.999**t)) + 1e-8)
+
+
+# %% corrections_exchanged loses 8.5
+# Exchanges the corrections, but m should be divided by 1 - 0.9^t and v by 1 - 0.999^t.
+# -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
+# +     step = (m / (1 - 0.999**t)) / (np.sqrt(v / (1 - 0.9**t)) + 1e-8)
+
+
+# %% powers_for_corrections loses 8.5
+# Divides m by 0.9^t and v by 0.999^t instead of by 1 - 0.9^t and 1 - 0.999^t.
+# -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
+# +     step = (m / 0.9**t) / (np.sqrt(v / 0.999**t) + 1e-8)
+
+
+# %% epsilon_of_a_millionth loses 8.5
+# Adds 1e-6 to the root instead of 1e-8.
+# -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
+# +     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-6)
+
+
+# %% shrinking_stepsize loses 8.5
+# Divides the step by t, too, but stepsize should stay the same.
+# -     return centre - stepsize * step, m, v
+# +     return centre - stepsize / t * step, m, v
+
+
+# %% drawn_transposed loses 8.6
+# Draws the samples with the shape (n, samplesize) and transposes them instead of drawing the shape (samplesize, n).
+# -         samples = rng.standard_normal((samplesize, len(centre)))
+# +         samples = rng.standard_normal((len(centre), samplesize)).T
+
+
+# %% uniform_samples loses 8.6
+# Draws uniform numbers instead of Gaussian ones (standard_normal).
+# -         samples = rng.standard_normal((samplesize, len(centre)))
+# +         samples = rng.uniform(-1, 1, (samplesize, len(centre)))
+
+
+# %% mean_of_the_utilities loses 8.6
+# Keeps the mean of the utilities in the history, which is always 0, instead of the mean of the fitness.
+# -         history.append(float(np.mean(fitness)))
+# +         history.append(float(np.mean(utilities(fitness))))
+
+
+# %% t_of_the_end loses 8.6
+# Gives adam the number of all generations as t instead of generation + 1.
+# -         centre, m, v = adam(centre, d, m, v, generation + 1, stepsize)
+# +         centre, m, v = adam(centre, d, m, v, generations, stepsize)
+
+
+# %% rises_for_falls loses 8.7
+# Takes the largest rise instead of the largest fall.
+# -     falls = np.maximum.accumulate(curve) - curve
+# +     falls = curve - np.minimum.accumulate(curve)
+
+
+# %% sum_of_the_falls loses 8.7
+# Adds up the falls from value to value for the drop instead of taking the largest fall.
+# -     drop = float(falls[bottom] / height) if height > 0 else 0.0
+# +     drop = float(-np.minimum(np.diff(curve), 0).sum() / height) if height > 0 else 0.0
+
+
+# %% divided_by_the_maximum loses 8.7
+# Divides the fall by the highest value of the curve instead of by max - min.
+# -     height = curve.max() - curve.min()
+# +     height = np.abs(curve.max())
+
+
+# %% divided_by_the_deviation loses 8.7
+# Divides the fall by the standard deviation of the curve instead of by max - min.
+# -     height = curve.max() - curve.min()
+# +     height = curve.std()
+
+
+# %% ends_for_the_height loses 8.7
+# Divides the fall by the distance of the last value from the first one instead of by max - min.
+# -     height = curve.max() - curve.min()
+# +     height = np.abs(curve[-1] - curve[0])
+
+
+# %% place_before_the_bottom loses 8.7
+# Takes the place before the bottom for the peak instead of the place of the highest value up to the bottom.
+# -     peak = int(np.argmax(curve[: bottom + 1]))
+# +     peak = max(bottom - 1, 0)
+
+
+# %% values_for_places loses 8.7
+# Returns the heights at the peak and the bottom instead of their indices.
+# -     return {"drop": drop, "bottom": bottom, "peak": peak, "verdict": verdict}
+# +     return {"drop": drop, "bottom": curve[bottom], "peak": curve[peak], "verdict": verdict}
+
+
+# %% verdicts_reversed loses 8.7
+# Calls small drops severe and large ones monotonic instead of the other way round.
+# -     verdict = "severe regressions"
+# -     if drop <= 0.1:
+# -         verdict = "monotonic"
+# +     verdict = "monotonic"
+# +     if drop <= 0.1:
+# +         verdict = "severe regressions"
+
+
+# %% windows_apart loses 8.7
+# Takes windows that do not overlap, but each should begin one place after the one before.
+# -     return np.convolve(curve, np.full(width, 1 / width), mode="valid")
+# +     return np.convolve(curve, np.full(width, 1 / width), mode="valid")[::width]
+
+
+# %% means_from_the_beginning loses 8.7
+# Takes the mean of all numbers from the beginning on instead of that of the last width numbers.
+# -     return np.convolve(curve, np.full(width, 1 / width), mode="valid")
+# +     return (np.cumsum(curve) / np.arange(1, len(curve) + 1))[width - 1 :]
+
+
+# %% divided_by_one_less loses 8.7
+# Divides the sums by width - 1 instead of by width.
+# -     return np.convolve(curve, np.full(width, 1 / width), mode="valid")
+# +     return np.convolve(curve, np.full(width, 1 / max(width - 1, 1)), mode="valid")

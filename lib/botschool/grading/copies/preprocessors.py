@@ -176,7 +176,7 @@ class Grade(NbGraderPreprocessor):
         ):
             for count, cell in enumerate(tests, 1):
                 task = exercise.find(task_of(_grade_id(cell)))
-                _fill(cell, count, submission.grade(task), submission.banner)
+                _fill(cell, count, submission.grade(task).complete(), submission.banner)
         return nb, resources
 
 

@@ -137,7 +137,11 @@ def expect_close(
     if array.shape != wanted.shape:
         _found(Mismatch(_but(said, value, wanted.shape), array, wanted, mistakes, said))
         return
-    got = expect_array(said, value, wanted.shape)
+    odd = ~np.isfinite(wanted) & ((array == wanted) | (np.isnan(array) & np.isnan(wanted)))
+    got, wanted = (
+        expect_array(said, np.where(odd, 0.0, array), wanted.shape),
+        np.where(odd, 0.0, wanted),
+    )
     close = np.abs(got - wanted) <= _allowed(got, wanted, tolerance)
     if not close.all():
         shown = show(got) if isinstance(value, np.ndarray) else start_of(got)

@@ -62,6 +62,7 @@ class Task:
     refused: tuple[str, ...] = ()
     extras: tuple[str, ...] = ()
     """The exercise's extras that the task needs."""
+    exercise: Any = field(default=None, repr=False, compare=False)
     checks: list[tuple[int, str, Check]] = field(default_factory=list)
 
     def check(self, points: int) -> Callable:
@@ -72,6 +73,12 @@ class Task:
             return function
 
         return keep
+
+    @property
+    def declared(self) -> bool:
+        """Return whether checks of this exercise declare their inputs (same.py)."""
+        checks = [each for task in self.exercise.tasks for _, _, each in task.checks]
+        return any(hasattr(each, "what") for each in checks)
 
     @property
     def max_points(self) -> int:
@@ -121,6 +128,8 @@ class Exercise:
         """A Python file with our own functions of the tasks that others need (references.py)."""
         self.known = Known(number)
         """Our solution and its known mistakes, to compare with wrong answers."""
+        self.ours: Any = None
+        """Our solution in a process (run/ours.py), while a submission is graded."""
 
     def knows(self, solution: str, mistakes: str = "") -> None:
         """Take references and known mistakes from the texts of a solution and of wrong ones."""
@@ -148,7 +157,7 @@ class Exercise:
         may be missing.
         """
         extras = self.extras if packages is None else packages
-        self.tasks.append(Task(id, title, seconds, memory, needs, refused, extras))
+        self.tasks.append(Task(id, title, seconds, memory, needs, refused, extras, self))
         return self.tasks[-1]
 
     def needed(self, task: Task) -> list[Task]:
@@ -182,7 +191,7 @@ class Exercise:
         if all(missing_packages(task.extras) for task in tasks):
             self.require(tasks)
 
-    def seed(self, index: int) -> int:
+    def seed(self, index: int | str) -> int:
         """Return a grading seed, which follows from the instructor's secret and the submission.
 
         Feedback about the inputs of one submission therefore helps no other submission, nor the

@@ -28,10 +28,19 @@ def may_be_true(slip: Variation, text: str) -> bool:
         return False
     if (step := LEFT_OUT.search(slip.what)) and assigns(text, step[1]):
         return False
+    if slip.comparison and not _may_compare(text, slip):
+        return False
     only_if_alike = slip.vague or ONLY_IF_ALIKE.search(slip.what)
     if only_if_alike and not written_alike(text, slip.text, slip.function):
         return False
     return not slip.shown or holds(text, slip.shown, quoted(slip.what))
+
+
+def _may_compare(text: str, slip: Variation) -> bool:
+    """Return whether a function has a slip's wrong sign, either way round, or no comparison."""
+    signs = set(re.findall(r"[<>]=?|[!=]=", " ".join(_words(text, slip.function)).replace(" ", "")))
+    turned = slip.comparison.translate(str.maketrans("<>", "><"))
+    return not signs or bool(signs & {slip.comparison, turned})
 
 
 def quoted(what: str) -> set[str]:

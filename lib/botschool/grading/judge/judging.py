@@ -16,6 +16,7 @@ from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong, plain
 from botschool.grading.declare.exercise import Task
 from botschool.grading.declare.mistakes import Known
+from botschool.grading.judge.causes import Explanation
 from botschool.grading.judge.explaining import SecondLook
 from botschool.grading.judge.looking import (
     MAX_SECONDS,
@@ -32,6 +33,8 @@ from botschool.sandbox import ForkServer
 T = TypeVar("T")
 CHECK_SECONDS = 20
 """Processor seconds of a check in the grader's own thread; our solutions need up to 3."""
+AGAIN = "It fails with our functions in the place of others, too."
+"""What is said of a check of such an attempt."""
 SLIPS = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 MOST_SECONDS = 2.0
 """As MAX_SECONDS, of a check that has failed: a known mistake must explain its answers, too."""
@@ -51,6 +54,14 @@ class TaskResult:
     max_points: int
     message: str
     """Why points are missing, in sentences; empty for full marks."""
+    checks: dict[str, str] = field(default_factory=dict)
+    """Why each check fails, by its name; "" where it passes."""
+    explain: Callable[[], str] | None = field(default=None, repr=False, compare=False)
+    """Finds the cause and returns the whole message; takes seconds."""
+    compared: bool = False
+    """Whether checks of the task compare with our solution, so that `explain` shows their calls."""
+    hung: bool = False
+    """Whether a call did not return in time."""
     printed: str = ""
     """The beginning of what the submission printed."""
     missing: list[str] = field(default_factory=list)
@@ -59,6 +70,13 @@ class TaskResult:
     """(name, PNG) of the pictures beside the submission's file after the task."""
     graded: bool = True
     """Whether this machine has what the task needs."""
+
+    def complete(self) -> TaskResult:
+        """Find the cause and complete the message, once."""
+        if self.explain is not None:
+            explain, self.explain = self.explain, None
+            self.message = explain()
+        return self
 
 
 class GraderFault(BotschoolError):
@@ -99,17 +117,19 @@ def _grade_task(
     problems: list[str] = []
     failed: list[tuple[int, Failure]] = []
     cheap: list[Callable[[Student], None]] = []
-    student, told, call = None, "", ""
+    student, call, shown = None, "", ""
     try:
         student = Student(
             file, task.seconds, task.memory, server, tried, origin, references, task.refused
         )
-        for worth, _, check in task.checks:
+        for worth, name, check in task.checks:
             start = time.thread_time() - student.seconds_left
             problem = _problem(task, check, student)
             spent = time.thread_time() - student.seconds_left - start
             if spent < (MAX_SECONDS if problem is None else MOST_SECONDS):
                 cheap.append(check)
+            said = problem.text if problem and references is None else AGAIN
+            result.checks[name] = said if problem else ""
             if problem is None:
                 result.points += worth
             else:
@@ -120,30 +140,63 @@ def _grade_task(
         if references is None:
             result.printed = plain(student.printed)
             result.pictures = student.pictures()
-        result.missing = student.missing
+        result.missing, result.hung = student.missing, bool(student.hung)
+        result.compared = any(hasattr(check, "what") for _, _, check in task.checks)
         seconds = min(LOOKING_SECONDS, task.seconds)
         limits = seconds, task.memory, server, True
         begun = partial(Student, file, *limits, origin, references, task.refused)
-        look = SecondLook(task, known, file.name, server, seconds, begun, cheap, failed, problems)
-        try:
-            told = look.explain() if failed else ""
-        except SLIPS as slip:  # of ours, and points do not depend on it
-            warnings.warn(f"The cause of a failure could not be found: {slip!r}.", stacklevel=1)
+        if references is not None:
+            shown = f"Then {call} is wrong." if call else ""
+        elif problems:
+            shown = problems[0] if task.declared else _each_once(problems)
+        if failed:
+            failures = [failure for _, failure in failed]
+            if task.declared:
+                quiet = references is not None
+                explanation = Explanation(
+                    task, known, task.exercise.ours, begun, failures, cheap, quiet
+                )
+                look = explanation.text
+            else:
+                second = SecondLook(
+                    task, known, file.name, server, seconds, begun, cheap, failed, problems
+                )
+                look = partial(_second_look, second, None if references is None else shown)
+            result.explain = partial(_explained, look, shown)
     except Wrong as error:
-        problems.append(str(error))
+        shown = str(error)
     finally:
         if student is not None:
             student.close()
-    # report the same exception or change once, though several checks meet it
+    result.message = plain(shown)
+    return result
+
+
+def _explained(look: Callable[[], str], shown: str) -> str:
+    """Return the message of a second look; the one that is shown already, if that fails."""
+    try:
+        return plain(look())
+    except SLIPS as slip:  # of ours, and points do not depend on it
+        warnings.warn(f"The cause of a failure could not be found: {slip!r}.", stacklevel=1)
+    except BotschoolError:  # a fault of the machine
+        pass
+    return plain(shown)
+
+
+def _second_look(look: SecondLook, quiet: str | None) -> str:
+    """Return the message of the old form; quiet: what is said if no known mistake is found."""
+    told = look.explain()
+    if quiet is not None:
+        return told or quiet
+    return "\n".join(filter(None, [told, _each_once(look.problems)]))
+
+
+def _each_once(problems: list[str]) -> str:
+    """Return the lines; the same exception or change once, though several checks meet it."""
     said: dict[str, str] = {}
     for each in problems:
         said.setdefault(_SAME.split(each, maxsplit=1)[-1], each)
-    if told:
-        said = {"": told, **said}
-    if references is not None:
-        said = {"": told or (f"Then {call} is wrong." if call else "")}
-    result.message = plain("\n".join(said.values()))
-    return result
+    return "\n".join(said.values())
 
 
 def _problem(task: Task, check: Callable[[Student], None], student: Student) -> Failure | None:

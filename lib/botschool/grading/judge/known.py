@@ -21,6 +21,8 @@ from itertools import count, islice
 from pathlib import Path
 from typing import Any, TypeVar
 
+import numpy as np
+
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import Task
@@ -34,8 +36,8 @@ from botschool.grading.run.student import Student
 from botschool.sandbox import ForkServer
 from botschool.sandbox.protocol import pack, unpack
 
-TOLD = "Your answers are those of a known mistake: the code"
-VARIED = "Your answers are those of our solution with this slip, or with one of the same effect:"
+TOLD = "Your code"
+VARIED = "Your answers fit this slip:"
 """Words before the sentence on a known mistake, and before the sentence on a slip."""
 SECONDS = 3.0
 """Processor seconds for all slips of a task; known mistakes have twice that."""
@@ -47,7 +49,7 @@ CASE_SECONDS = 0.25
 """Processor seconds for the first answer of a known mistake."""
 BATCH = 16
 """Slips that are tried in one request."""
-MOST = 40
+MOST = 100
 """Mistakes of a task to try."""
 INPUTS, COUNTS = 2, 4
 """Smallest number of different calls that must point to a mistake; the second is for slips if all
@@ -73,6 +75,44 @@ class Call:
     got: Any = None
     slow: bool = False
     """Whether the check takes long: a mistake must explain the answer, which is no proof of it."""
+    equal: Callable[[Any, Any], bool] | None = None
+    """Whether two answers are the same to the grader, if it looks at parts of them only."""
+
+    check: Check | None = None
+    loose: bool = False
+    """Whether a mistake may also leave this answer right, because another mistake changed it."""
+
+    @property
+    def wrong(self) -> bool:
+        if self.equal is not None and not _raised(self.got):
+            return not self.equal(self.got, self.ours)
+        return distance(self.got, self.ours) > TIE
+
+    def agrees(self, made: Any) -> bool:
+        """Return whether an answer equals the submission's; any wrong one equals an exception."""
+        if self.loose and distance(made, self.ours) <= TIE:
+            return True
+        if _raised(self.got):
+            return made == self.got if _raised(made) else distance(made, self.ours) > TIE
+        if self.equal is not None:
+            return not _raised(made) and self.equal(self.got, made)
+        return fits(self.got, made, self.ours)
+
+    def proof(self, made: Any) -> float:
+        """Return how much proof an answer that agrees is."""
+        if self.slow or self.loose or (_raised(self.got) and made != self.got):
+            return 0.0
+        if self.equal is not None and not _raised(self.got):
+            return float(self.wrong)
+        return weight(self.got, made, self.ours)
+
+    def numbers(self) -> tuple[np.ndarray, np.ndarray, list[Any]] | None:
+        """Return the submission's answer, ours and the arguments, if both are numbers or arrays."""
+        given, pair = unpack(self.request), (self.got, self.ours)
+        fits = all(isinstance(each, (int, float, np.ndarray)) for each in pair)
+        if not fits or "driver" in given:
+            return None
+        return np.asarray(pair[0]), np.asarray(pair[1]), [*given["arguments"]]
 
 
 def known_mistake(
@@ -89,26 +129,35 @@ def known_mistake(
     checks: the task's quick checks. submission: a Student whose time does not count. file: our
     solution. others: requests of other checks that have failed, and the submission's answers.
     """
-    if not known.solution:
-        return ""
-    cases = known.of(task.id)[:MOST]
     try:
         with closing(Student(file, TOTAL, task.memory, server, True, refused=task.refused)) as ours:
-            calls = _calls(ours, checks)
-            calls = [call for call in calls if _answered(submission, call)]
-            if not _tells(calls, [call.got for call in calls]):
-                return ""
-            calls += [Call(pack(request), None, got=got, slow=True) for request, got in others]
-            for what, text, likely in _likely_first(ours, cases, known.solution, calls):
-                if ours.seconds_left < SECONDS and not likely:
-                    break  # so much is for slips
-                if _explains(ours, text, calls):
-                    return line_about(what)
-            slips = _slips(ours, task, known, calls)
-            slip = _clearest(each for each in slips if may_be_true(each, submission.text))
-            return f"{VARIED} {slip.what}" if slip else ""
+            calls = calls_of(ours, checks)
+            calls = [call for call in calls if answered_by(submission, call)]
+            slow = [Call(pack(request), None, got=got, slow=True) for request, got in others]
+            return named(ours, calls, task, known, submission.text, slow)
     except (BotschoolError, Wrong, OSError):  # a fault of the machine, or no time is left
         return ""
+
+
+def named(
+    ours: Student, calls: list[Call], task: Task, known: Known, text: str, slow: Iterable[Call] = ()
+) -> str:
+    """Return a line about the known mistake, or the slip, that gives all these answers, or "".
+
+    ours: our solution in a process whose time limits the search. text: the submission's. slow:
+    calls whose answers must fit but prove nothing.
+    """
+    if not known.solution or not _tells(calls, [call.got for call in calls]):
+        return ""
+    calls = [*calls, *slow]
+    for what, made, likely in _likely_first(ours, known.of(task.id)[:MOST], known.solution, calls):
+        if ours.seconds_left < SECONDS and not likely:
+            break  # so much is for slips
+        if _explains(ours, made, calls):
+            return line_about(what)
+    slips = _slips(ours, task, known, calls)
+    slip = _clearest(each for each in slips if may_be_true(each, text))
+    return f"{VARIED} {slip.what}" if slip else ""
 
 
 def line_about(what: str) -> str:
@@ -120,7 +169,7 @@ def _lower(sentence: str) -> str:
     return sentence[0].lower() + sentence[1:]
 
 
-def _calls(ours: Student, checks: Iterable[Check]) -> list[Call]:
+def calls_of(ours: Student, checks: Iterable[Check]) -> list[Call]:
     """Return the calls that the checks make to our solution."""
     ours.trace = []
     for check in checks:
@@ -133,7 +182,7 @@ def _calls(ours: Student, checks: Iterable[Check]) -> list[Call]:
     return [Call(request, unpack(answer), seconds) for request, answer, seconds in found]
 
 
-def _answered(submission: Student, call: Call) -> bool:
+def answered_by(submission: Student, call: Call) -> bool:
     """Store the submission's answer to a call; return False if that function is not done yet."""
     try:
         call.got = submission.ask(unpack(call.request))
@@ -147,13 +196,6 @@ def _answered(submission: Student, call: Call) -> bool:
 def _raised(answer: Any) -> bool:
     """Return whether an answer stands for an exception."""
     return isinstance(answer, dict) and answer.keys() == {"raised", "text"}
-
-
-def _agrees(call: Call, made: Any) -> bool:
-    """Return whether an answer equals the submission's; any wrong one agrees with an exception."""
-    if _raised(call.got):
-        return made == call.got if _raised(made) else distance(made, call.ours) > TIE
-    return fits(call.got, made, call.ours)
 
 
 def _changed(case: Case, solution: str) -> str:
@@ -192,9 +234,9 @@ def _telling(calls: list[Call]) -> Call:
     that takes our solution long: mistakes would run out of time.
     """
     return min(
-        (call for call in calls if not call.slow),
+        (call for call in calls if not call.slow and not call.loose),
         key=lambda c: (
-            distance(c.got, c.ours) <= TIE,
+            not c.wrong,
             _raised(c.got),
             c.seconds > CASE_SECONDS / 2,
             len(c.request),
@@ -205,7 +247,7 @@ def _telling(calls: list[Call]) -> Call:
 def _near(ours: Student, texts: list[str], call: Call, seconds: float, said: str) -> list[bool]:
     """Return which texts answer a call as the submission does."""
     made = ours.run(tried, texts, unpack(call.request), seconds, said=said)
-    return [bool(answers) and _agrees(call, answers[0]) for answers in made]
+    return [bool(answers) and call.agrees(answers[0]) for answers in made]
 
 
 def _explains(ours: Student, text: str, calls: list[Call]) -> bool:
@@ -222,7 +264,7 @@ def _explains(ours: Student, text: str, calls: list[Call]) -> bool:
             if ours.seconds_left <= 0:
                 raise
             return False
-        if not all(_agrees(call, each) for call, each in zip(calls, made, strict=False)):
+        if not all(call.agrees(each) for call, each in zip(calls, made, strict=False)):
             return False
     return _tells(calls, made)
 
@@ -260,7 +302,7 @@ def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterat
 
 def _wrong(calls: list[Call]) -> list[Call]:
     """Return the quick calls whose answers are wrong."""
-    return [call for call in calls if distance(call.got, call.ours) > TIE and not call.slow]
+    return [call for call in calls if call.wrong and not call.slow]
 
 
 def _few(wrong: list[Call]) -> bool:
@@ -359,10 +401,7 @@ def _tells(calls: list[Call], answers: list[Any]) -> bool:
     """
     told: dict[bytes, float] = {}
     for call, answer in zip(calls, answers, strict=True):
-        proof = 0.0 if call.slow else weight(call.got, answer, call.ours)
-        if _raised(call.got) and not (_raised(answer) and answer == call.got):
-            proof = 0.0
-        told[call.request] = max(told.get(call.request, 0.0), proof)
+        told[call.request] = max(told.get(call.request, 0.0), call.proof(answer))
     raised = {call.request for call in calls if _raised(call.got)}
     only = not any(proof for request, proof in told.items() if request not in raised)
     return sum(told.values()) / (2 if only else 1) >= INPUTS

@@ -26,6 +26,8 @@ class Variation:
     """The pattern of an expression that a submission must hold, or ""; see evidence.py."""
     function: str = ""
     """The function that has the slip."""
+    comparison: str = ""
+    """The wrong sign of a comparison, as `>=`, or ""."""
 
     @property
     def vague(self) -> bool:

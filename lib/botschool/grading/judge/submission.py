@@ -15,10 +15,12 @@ from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import Exercise, Task, cannot_be_graded
 from botschool.grading.declare.references import functions_of, pruned
 from botschool.grading.judge.judging import TaskResult, grade_task, tried_twice
+from botschool.grading.judge.known import TOLD, VARIED
 from botschool.grading.run.cells import Script, Unreadable, gives_builtins, scripts
 from botschool.grading.run.confined import content_digest, fork_server, submission_files
 from botschool.grading.run.failures import Origin
 from botschool.grading.run.notebooks import code_cells, other_cells
+from botschool.grading.run.ours import ours_of
 from botschool.grading.run.student import Student
 from botschool.sandbox import ForkServer
 from botschool.sandbox.inside import read_inside
@@ -94,15 +96,21 @@ def grade(
         with fork_server(exercise.imports) as own:
             return grade(exercise, file, report, tasks, own, alone, announce)
     results = []
-    sources = code_cells(file) if file.suffix == ".ipynb" else None
-    name = exercise.file if sources is not None else ""
-    with Submission(file, server, sources, name, alone, exercise) as submission:
+    with opened(exercise, file, server, alone) as submission:
         if submission.banner:
             announce(submission.banner)
         for task in exercise.tasks if tasks is None else tasks:
             results.append(submission.grade(task))
             report(results[-1])
+            results[-1].complete()
     return Result(exercise.number, exercise.title, results, submission.banner)
+
+
+def opened(exercise: Exercise, file: Path, server: ForkServer, alone: bool = True) -> Submission:
+    """Return a submission's file, a script or a notebook, to be entered by `with`."""
+    sources = code_cells(file) if file.suffix == ".ipynb" else None
+    name = exercise.file if sources is not None else ""
+    return Submission(file, server, sources, name, alone, exercise)
 
 
 class Submission:
@@ -145,6 +153,7 @@ class Submission:
     def __enter__(self) -> Submission:
         if self._exercise is not None:
             self._exercise.work = self._digest()
+            self._exercise.ours = ours_of(self._exercise, self._server)
         try:
             self._prepare()
         except (Wrong, Unreadable) as error:
@@ -155,6 +164,9 @@ class Submission:
         return self
 
     def __exit__(self, *_: object) -> None:
+        if self._exercise is not None and self._exercise.ours is not None:
+            self._exercise.ours.close()
+            self._exercise.ours = None
         shutil.rmtree(self._base, ignore_errors=True)
 
     def grade(self, task: Task) -> TaskResult:
@@ -164,11 +176,24 @@ class Submission:
         if self._failure:
             return TaskResult(task.id, task.title, 0, task.max_points, self._failure)
         if task.id not in self._results:
-            result = self._attempt(task)
+            done = [self._results.get(each.id) for each in self._needed(task)]
+            if any(each and each.hung for each in done):
+                result = TaskResult(task.id, task.title, 0, task.max_points, "")
+            else:
+                result = self._attempt(task)
             if self._exercise is not None and result.points < result.max_points:
                 result = self._with_references(task, result)
             self._results[task.id] = result
         return self._results[task.id]
+
+    def begun(self, task: Task) -> Student:
+        """Return the submission in a process of its own, as a task runs it. Raises Wrong."""
+        file = self._file if self._script else self._given
+        limits = task.seconds, task.memory, self._server, True
+        return Student(file, *limits, refused=task.refused)
+
+    def _needed(self, task: Task) -> list[Task]:
+        return self._exercise.needed(task) if self._exercise is not None else []
 
     def _attempt(self, task: Task, references: dict | None = None) -> TaskResult:
         file = self._file if self._script else self._given
@@ -197,6 +222,7 @@ class Submission:
         task_or_tasks, do, solution, place = _WORDS[len(broken) > 1]
         yours = f"This task builds on {task_or_tasks} {which}, which {do} not pass yet."
         with_ours = f"With our {solution} in {place} place, it"
+        result.hung |= again.hung
         if again.points <= result.points:
             lines = [result.message, f"{yours} {with_ours} fails as well."]
         elif again.points == again.max_points:
@@ -204,8 +230,10 @@ class Submission:
         else:
             lines = [f"{yours} {with_ours} still loses some of its points."]
             lines.append(again.message or result.message)
-        result.points = max(result.points, again.points)
-        result.message = "\n".join(lines)
+        result.explain = partial(_with_the_cause, lines, result.message, again)
+        if again.points > result.points:
+            result.points, result.checks = again.points, again.checks
+        result.message = "\n".join(filter(None, lines))
         return result
 
     def _digest(self) -> str:
@@ -312,6 +340,16 @@ class Submission:
         lines = [line.strip() for line in self._sources[number - 1].splitlines() if line.strip()]
         shown = lines[0] if lines else ""
         return f"the cell '{shown[:40]}{'...' if len(shown) > 40 else ''}'"
+
+
+def _with_the_cause(lines: list[str], own: str, again: TaskResult) -> str:
+    """Return the lines with the cause of another attempt's failure in the place of its message.
+
+    lines: of the message. own: the one among them that tells what failed without our functions.
+    """
+    before, told = again.message, again.complete().message
+    known = told.startswith((TOLD, VARIED))
+    return "\n".join(told if each == before or (known and each == own) else each for each in lines)
 
 
 def _trouble(file: Path, server: ForkServer, origin: Origin, tried: bool) -> Wrong | None:

@@ -132,7 +132,8 @@ def _made(
         first, last = function.lineno - 1, function.end_lineno
         first -= sum(1 for _ in function.decorator_list)
         text = "".join([*lines[:first], text, "\n", *lines[last:]])
-        yield Variation(what, text, own, shown, function.name)
+        sign = SIGNS.get(type(edits[0].new), "") if isinstance(edits[0].new, ast.cmpop) else ""
+        yield Variation(what, text, own, shown, function.name, sign)
 
 
 class _Slips:

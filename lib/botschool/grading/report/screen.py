@@ -57,6 +57,7 @@ class Screen:
         if not result.graded:
             mark, points = "[dim]–[/]", f"  – of {result.max_points}"
         self.console.print(f" {mark} {result.id:<5} {escape(result.title):<44} {points}")
+        result.complete()
         if result.message:
             self._indented(result.message.splitlines(), MAX_MESSAGE_LINES, "")
         if result.printed.strip():
@@ -90,8 +91,10 @@ class Screen:
             )
             return
         task = missing[0]
+        shows = task.compared and not task.message.startswith("not done yet")
+        calls = f"All its calls: botschool explain {task.id}   " if shows else ""
         self.console.print(
-            f"Next: task {task.id}. After a change: botschool grade {task.id}   "
+            f"Next: task {task.id}. After a change: botschool grade {task.id}   {calls}"
             f"A hint: botschool hint {task.id}",
             soft_wrap=True,
         )

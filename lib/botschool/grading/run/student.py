@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -61,6 +62,9 @@ class Student:
         self._refused = refused
         self._child: Child | None = None
         self._printed = ""
+        self._limit = self._later = 0.0
+        self.hung: set[str] = set()
+        """Names of functions and drivers that did not return in time."""
         self.missing: list[str] = []
         """What this system could not confine, in words."""
         self.answers = 0
@@ -119,8 +123,24 @@ class Student:
         if call is not None:
             self.pasted = pasted(call[0], call[1:], {})
             self.direct = {"name": call[0], "arguments": call[1:], "options": {}}
-        request = {"driver": source_of(driver), "name": driver.__name__, "arguments": arguments}
+        request = driven(driver, *arguments)
         return self._request(request if robot is None else request | {"robot": robot})
+
+    @contextmanager
+    def within(self, seconds: float, what: str | Callable[..., Any]) -> Iterator[None]:
+        """Limit the processor time of the calls in the block.
+
+        what: the function or driver; Wrong is raised if it has not returned in time before.
+        """
+        if (what if isinstance(what, str) else what.__name__) in self.hung:
+            raise Wrong("It is not called again, because a call before did not return in time.")
+        allowed, self._limit = self._allowance.seconds, seconds
+        self._allowance.seconds = min(allowed, self._allowance.processor + seconds)
+        self._later = allowed - self._allowance.seconds
+        try:
+            yield
+        finally:
+            self._allowance.seconds, self._limit, self._later = allowed, 0.0, 0.0
 
     def ask(self, request: dict[str, Any]) -> Any:
         """Repeat a request from another Student's trace and return the answer. Raises Wrong."""
@@ -190,7 +210,7 @@ class Student:
         if first:
             if self._server is None:
                 self._server = self._own = fork_server()
-            limits = Limits(self.seconds_left, self._memory)
+            limits = Limits(self.seconds_left + self._later, self._memory)
             self._child = start_child(
                 self._server, self._scratch, self._file, limits, self._references, self._refused
             )
@@ -200,10 +220,12 @@ class Student:
         except TimeoutError:
             where = where_it_was(self._child.where(), self._source)
             self.stop()
+            self.hung.add(str(request["name"]))
             slept = ": it waits instead of computing" if self._allowance.slept else ""
+            limit = f"{self._limit or self._allowance.seconds:.3g}"
+            within = limit if self._limit else f"the task's {limit}"
             raise Wrong(
-                f"{self.said} did not return within the task's {self._allowance.seconds:g} "
-                f"seconds{slept}.{where}"
+                f"{self.said} did not return within {within} seconds{slept}.{where}"
             ) from None
         except ValueError:
             self.stop()
@@ -264,3 +286,8 @@ class Student:
             raise MachineFault(
                 f"The disk was full while {self.said} was running: free some space and grade again."
             )
+
+
+def driven(driver: Callable[..., Any], *arguments: Any) -> dict[str, Any]:
+    """Return the request that runs a driver."""
+    return {"driver": source_of(driver), "name": driver.__name__, "arguments": arguments}

@@ -1,0 +1,312 @@
+"""Compare a submission with our solution on inputs that a grader declares.
+
+    @same(ranks, 4, "utilities")
+    def equals_in_their_order(rng):
+        yield np.array([1.0, 2.0, 2.0, 1.0])
+        yield rng.integers(0, 4, 40).astype(float)
+
+is a check of 4 points. `utilities` of the submission and of our solution get the same inputs, the
+smallest first, and must give the same answers. What every function must keep is tried with more
+inputs, which are made from these (docs/specification.md, "Graders that declare"). A function of the
+grader may stand for the name: a driver, run with the module in both confined processes.
+"""
+
+from __future__ import annotations
+
+import ast
+import copy
+import re
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
+
+import numpy as np
+
+from botschool.errors import BotschoolError
+from botschool.grading.declare.checks import (
+    Wrong,
+    expect,
+    expect_close,
+    expect_fields,
+    show,
+)
+from botschool.grading.declare.exercise import Task
+from botschool.grading.declare.values import argument
+from botschool.sandbox.protocol import pack
+
+Inputs = Callable[[np.random.Generator], Iterable[Any]]
+KEEPS = {
+    "draw": "other inputs, drawn as under another secret",
+    "again": "the same call later, in a new process",
+    "changes": "one argument changed at a time",
+    "square": "arrays cut to a square",
+    "one": "arrays cut to size one",
+    "single": "arrays in single precision",
+    "list": "lists, where our docstring calls the function with one",
+}
+"""What every function must keep, by the names with which a grader switches it off."""
+BASES, OF_A_DRIVER = 2, 1
+"""Inputs of a check, the smallest ones, from which more are made."""
+QUICK = 0.05
+"""Processor seconds of our answer to an input from which more are made."""
+PATIENCE, SLOWER = 2.0, 20.0
+"""Seconds that a call may take, and how many times as long as ours beyond them."""
+SHORT = 110
+"""Characters of a call that is shown as Python."""
+SINGLE = 1e-4
+"""Smallest tolerance for arguments in single precision."""
+KEPT = (
+    "Something stays from an earlier call: look for a variable of the module, a default argument, "
+    "an array that is changed in place, or a file."
+)
+NOTES = {
+    "single": "The arrays of this call have dtype float32.",
+    "list": "This call gives a list, as the docstring does.",
+}
+
+
+def same(
+    task: Task,
+    points: int,
+    what: str | Callable[..., Any],
+    tolerance: float = 1e-9,
+    parts: tuple[str, ...] = (),
+    view: Callable[..., Any] | None = None,
+    off: dict[str, str] | None = None,
+) -> Callable[[Inputs], Inputs]:
+    """Return a decorator of a function of a random generator that yields inputs.
+
+    An input is a tuple of arguments, or the only argument.
+    what: the name of a function, or a driver, whose docstring begins with the call in words; {0}
+    stands for its first argument after the module.
+    tolerance: relative and absolute.
+    parts: names of the parts of an answer in order, if it is a list; the keys to compare, if it is
+    a dict with others.
+    view: returns what is compared, of an answer and its arguments, where chance decides the rest.
+    It runs in the grader's process, on our answer, too; it raises Wrong for a wrong form.
+    off: names from KEEPS, and the reason why a right answer need not keep this.
+    """
+
+    def keep(inputs: Inputs) -> Inputs:
+        if wrong := set(off or ()) - set(KEEPS):
+            raise ValueError(f"{inputs.__name__}: off names {wrong}; there are {list(KEEPS)}")
+        task.check(points)(Same(task, what, inputs, tolerance, parts, view, off or {}))
+        return inputs
+
+    return keep
+
+
+class Same:
+    """A check that compares answers with our solution's."""
+
+    def __init__(
+        self,
+        task: Task,
+        what: str | Callable[..., Any],
+        inputs: Inputs,
+        tolerance: float,
+        parts: tuple[str, ...],
+        view: Callable[..., Any] | None,
+        off: dict[str, str],
+    ) -> None:
+        """Take what `same` takes."""
+        self.task, self.what, self.off = task, what, off
+        self.tolerance, self.parts, self.view = tolerance, parts, view
+        self._draw = inputs
+        self.__name__ = inputs.__name__
+
+    def inputs(self, draw: str = "") -> list[tuple]:
+        """Return the inputs, the smallest first; draw: for other random ones of the same kind."""
+        key = f"{self.task.id} {self.__name__}{draw}"
+        rng = np.random.default_rng(self.task.exercise.seed(key))
+        found = [each if isinstance(each, tuple) else (each,) for each in self._draw(rng)]
+        sizes = [len(pack([*each])) for each in found]
+        return [found[i] for i in sorted(range(len(found)), key=sizes.__getitem__)]
+
+    def __call__(self, student: Any) -> None:
+        """Raise Wrong unless the submission answers as our solution does."""
+        earlier: list[Any] = []
+        for arguments in self.inputs():
+            self._compare(student, arguments, earlier)
+        first = next(each for _, _, each in self.task.checks if isinstance(each, Same))
+        if first is self and "again" not in self.off:
+            student.stop()
+        for kept, arguments in self.more():
+            self._compare(student, arguments, earlier, kept)
+
+    def _compare(self, student: Any, arguments: tuple, earlier: list[Any], kept: str = "") -> None:
+        ours = self.task.exercise.ours.answer(self.what, arguments)
+        if ours.raised:
+            if kept:
+                return
+            raise BotschoolError(f"Our solution fails in {self.__name__}: {ours.raised}")
+        if kept and not _finite(ours.value):
+            return
+        tolerance = max(self.tolerance, SINGLE) if kept == "single" else self.tolerance
+        got = None
+        try:
+            got = self.ask(student, arguments, ours.seconds)
+            wanted = self.seen("", ours.value, arguments)
+            answer = self.seen(student.said, got, arguments)
+            alike(student.said, answer, wanted, tolerance, self.parts)
+        except Wrong as error:
+            note = NOTES.get(kept, "")
+            stale = got is not None and any(_equal(got, each) for each in earlier)
+            if kept == "again" or (stale and kept):
+                note = KEPT
+            error.args = (f"{error} {note}".rstrip(),)
+            raise
+        earlier.append(ours.value)
+
+    def seen(self, said: str, answer: Any, arguments: tuple) -> Any:
+        """Return what is compared of an answer. Raises Wrong."""
+        if self.view is None:
+            return answer
+        try:
+            return self.view(answer, *arguments)
+        except Wrong as error:
+            raise Wrong(f"{said}: {error}") from None
+        except KeyError as error:
+            raise Wrong(f"{said} has no {error}.") from None
+        except Exception as error:  # an answer of another form
+            raise Wrong(f"{said} returned {show(answer)}, which cannot be judged.") from error
+
+    def equal(self, arguments: tuple, one: Any, other: Any) -> bool:
+        """Return whether two answers are the same to this check."""
+        try:
+            got, wanted = (self.seen("", each, arguments) for each in (one, other))
+            alike("", got, wanted, self.tolerance, self.parts)
+        except Wrong:
+            return False
+        return True
+
+    def ask(self, student: Any, arguments: tuple, seconds: float) -> Any:
+        """Return a submission's answer; seconds: that our solution took. Raises Wrong."""
+        with student.within(PATIENCE + SLOWER * seconds, self.what):
+            return self._ask(student, arguments)
+
+    def _ask(self, student: Any, arguments: tuple) -> Any:
+        if callable(self.what):
+            words = (self.what.__doc__ or self.what.__name__).strip().splitlines()[0]
+            given = [each if isinstance(each, str) else argument(each) for each in arguments]
+            return student.run(self.what, *arguments, said=words.format(*given))
+        got = student.call(self.what, *arguments)
+        if 0 < len(student.pasted) <= SHORT:
+            student.said = student.pasted
+        return got
+
+    def more(self) -> Iterator[tuple[str, tuple]]:
+        """Yield a name from KEEPS and arguments: what every function must keep."""
+        ours = self.task.exercise.ours
+        pairs = zip(self.inputs(), self.inputs(" of another secret"), strict=True)
+        for arguments, others in list(pairs)[: OF_A_DRIVER if callable(self.what) else BASES]:
+            answer = ours.answer(self.what, arguments)
+            if answer.seconds > QUICK:
+                return
+            made = [("draw", others), ("again", arguments)]
+            if len(arguments) > 1:
+                made += [("changes", each) for each in _one_changed(arguments, others)]
+            if not callable(self.what):
+                made += [(name, each) for name, each in _cut(arguments)]
+                made.append(("single", _mapped(arguments, _in_single)))
+                if re.search(rf"\b{self.what}\(\[", _docstring(ours.solution, self.what)):
+                    made.append(("list", _mapped(arguments, lambda array: array.tolist())))
+            base = pack([*arguments])
+            for name, each in made:
+                if name not in self.off and (name == "again" or pack([*each]) != base):
+                    yield name, each
+
+
+def alike(said: str, got: Any, wanted: Any, tolerance: float, parts: tuple[str, ...] = ()) -> None:
+    """Raise Wrong at the first part of an answer that differs from ours."""
+    if isinstance(wanted, dict):
+        keys = parts or tuple(wanted)
+        for key, value in zip(keys, expect_fields(said, got, *keys), strict=True):
+            alike(f"{said}: {key}", value, wanted[key], tolerance)
+    elif isinstance(wanted, (list, tuple)) and not _numbers(wanted):
+        names = parts or tuple(f"[{i}]" for i in range(len(wanted)))
+        right = isinstance(got, (list, tuple)) and len(got) == len(wanted)
+        expect(right, f"{said} should be {len(wanted)} values, not {show(got)}.")
+        for name, one, other in zip(names, got, wanted, strict=True):
+            alike(f"{said}: {name}", one, other, tolerance)
+    elif wanted is None or isinstance(wanted, (str, bool, np.bool_)):
+        right = isinstance(got, (str, bool, np.bool_, type(None))) and got == wanted
+        expect(right, f"{said} is {show(got)}, but {show(wanted)} was expected.")
+    else:
+        expect_close(said, got, wanted, tolerance)
+
+
+def _numbers(value: Any) -> bool:
+    return all(isinstance(each, (int, float)) and not isinstance(each, bool) for each in value)
+
+
+def _equal(one: Any, other: Any) -> bool:
+    try:
+        alike("", one, other, 1e-12)
+    except Wrong:
+        return False
+    return True
+
+
+def _finite(value: Any) -> bool:
+    """Return whether an answer holds no NaN and no infinity."""
+    if isinstance(value, (dict, list, tuple)):
+        return all(map(_finite, value.values() if isinstance(value, dict) else value))
+    number = isinstance(value, (float, np.ndarray)) and np.asarray(value).dtype.kind == "f"
+    return bool(np.isfinite(value).all()) if number else True
+
+
+def _one_changed(value: Any, other: Any) -> Iterator[Any]:
+    """Yield a tuple, list or dict with one part changed, to what the other one has if it may be."""
+    places = list(value) if isinstance(value, dict) else range(len(value))
+    if type(value) is not type(other) or len(value) != len(other):
+        return
+    for place in places:
+        if isinstance(value, dict) and place not in other:
+            continue
+        for new in _changed(value[place], other[place]):
+            parts: Any = copy.copy(value) if isinstance(value, dict) else list(value)
+            parts[place] = new
+            yield tuple(parts) if isinstance(value, tuple) else parts
+
+
+def _changed(value: Any, other: Any) -> Iterator[Any]:
+    """Yield other values that may stand for a value; other: of another draw."""
+    if isinstance(value, np.ndarray):
+        if np.shape(other) == value.shape and not np.array_equal(value, other):
+            yield other
+    elif isinstance(value, dict):
+        yield from _one_changed(value, other)
+    elif value != other and type(value) is type(other):
+        if not isinstance(value, (list, tuple)) or len(value) == len(other):
+            yield other
+    elif isinstance(value, int) and not isinstance(value, bool) and value >= 2:
+        yield value - 2  # even numbers stay even
+    elif isinstance(value, float) and value:
+        yield value / 2
+
+
+def _cut(arguments: tuple) -> Iterator[tuple[str, tuple]]:
+    """Yield arguments whose arrays are cut to a square, then to size one, if one is a table."""
+    table = next((e for e in arguments if isinstance(e, np.ndarray) and e.ndim > 1), None)
+    if table is None or 0 in table.shape:
+        return
+    for name, size in (("square", min(table.shape)), ("one", 1)):
+
+        def cut(array: np.ndarray, size: int = size) -> np.ndarray:
+            return array[tuple(slice(size if n in table.shape else n) for n in array.shape)]
+
+        yield name, _mapped(arguments, cut)
+
+
+def _in_single(array: np.ndarray) -> np.ndarray:
+    return array.astype(np.float32) if array.dtype == np.float64 else array
+
+
+def _mapped(arguments: tuple, change: Callable[[np.ndarray], Any]) -> tuple:
+    return tuple(change(each) if isinstance(each, np.ndarray) else each for each in arguments)
+
+
+def _docstring(solution: str, name: str) -> str:
+    """Return the docstring of a function of our solution, or ""."""
+    nodes = [each for each in ast.walk(ast.parse(solution)) if isinstance(each, ast.FunctionDef)]
+    return next((ast.get_docstring(node) or "" for node in nodes if node.name == name), "")

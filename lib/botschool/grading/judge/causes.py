@@ -1,0 +1,129 @@
+"""Explain the failures of a task whose grader declares its inputs: a cause, and a small call.
+
+The submission answers all inputs of the task again, in a new process. A known mistake, or a slip of
+our solution, is the cause if it gives all these answers (known.py). Points do not depend on it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from contextlib import closing, suppress
+from dataclasses import dataclass, replace
+from functools import partial
+
+from botschool.errors import BotschoolError
+from botschool.grading.declare.checks import Wrong
+from botschool.grading.declare.diagnosis import diagnose
+from botschool.grading.declare.exercise import Task
+from botschool.grading.declare.mistakes import Known
+from botschool.grading.declare.same import Same
+from botschool.grading.judge.afresh import answers_afresh
+from botschool.grading.judge.alike import TIE, distance
+from botschool.grading.judge.known import Call, answered_by, calls_of, named
+from botschool.grading.judge.looking import Failure, looked_at_again
+from botschool.grading.judge.smallest import difference, smallest_case
+from botschool.grading.run.ours import Ours
+from botschool.grading.run.student import Student
+from botschool.sandbox.protocol import pack
+
+SECONDS = 3.0
+"""Processor seconds to find a cause."""
+SLOW = 0.2
+"""Processor seconds of our answer to a call that is not repeated."""
+_DIGITS = re.compile(r"[-+]?\d[\d.e+-]*")
+
+
+@dataclass
+class Explanation:
+    """The failures of a task that are to be explained."""
+
+    task: Task
+    known: Known
+    ours: Ours
+    begun: Callable[[], Student]
+    """Starts the submission in a new process, whose time does not count."""
+    failures: list[Failure]
+    cheap: list[Callable[[Student], None]]
+    """The task's quick checks."""
+    quiet: bool = False
+    """Whether nothing may be shown that the submission returns or raises: it could be ours."""
+
+    def text(self) -> str:
+        """Return the cause, if it is found, and the first failure, perhaps with a smaller call."""
+        first = self.failures[0]
+        shown, cause = first.text, ""
+        if self.quiet:
+            shown = f"Then {first.pasted} is wrong." if first.pasted else ""
+        if not (first.answered or first.raised):
+            return shown
+        with closing(self.begun()) as again:
+            try:
+                calls = self._calls(again)
+                cause = self._cause(calls, again)
+                shown = shown if self.quiet else self._shown(first, again)
+            except (BotschoolError, Wrong, OSError):  # no time is left, or a fault of the machine
+                pass
+        return cause if cause and self.quiet else "\n".join(filter(None, [cause, shown]))
+
+    def _calls(self, again: Student) -> list[Call]:
+        """Return the task's quick calls with both answers."""
+        found: list[Call] = []
+        for check in self.cheap:
+            if not isinstance(check, Same):
+                found += [replace(e, check=check) for e in calls_of(self.ours.student, [check])]
+                continue
+            drawn = [each for name, each in check.more() if name in ("draw", "changes")]
+            for arguments in [*check.inputs(), *drawn]:
+                answer = self.ours.answer(check.what, arguments)
+                if not answer.raised and answer.seconds < SLOW:
+                    call = Call(pack(answer.request), answer.value, answer.seconds, check=check)
+                    if check.view is not None:
+                        call.equal = partial(check.equal, arguments)
+                    found.append(call)
+        return [call for call in found if answered_by(again, call)]
+
+    def _cause(self, calls: list[Call], again: Student) -> str:
+        """Return a sentence on the cause, or ""."""
+        limits = SECONDS, self.task.memory, self.ours.server, True
+        with closing(Student(self.ours.place, *limits)) as other:
+            # of two mistakes, one may explain the first check, and leave the others right
+            first = [replace(e, loose=e.check is not self.failures[0].check) for e in calls]
+            for some in (calls, first):
+                with suppress(BotschoolError, Wrong):  # no time is left
+                    if told := named(other, some, self.task, self.known, again.text):
+                        return told
+        return "" if self.quiet else self._diagnosed(calls) or self._by_chance(again)
+
+    def _diagnosed(self, calls: list[Call]) -> str:
+        """Return a sentence that two wrong answers suggest, or ""."""
+        told: list[str] = []
+        for call in sorted(calls, key=lambda call: len(call.request)):
+            wrong = call.numbers()
+            if wrong is not None and call.wrong:
+                got, wanted, given = wrong
+                told.append(diagnose(got, wanted, tuple(given), call.got, {}))
+        alike = {_DIGITS.sub("", each) for each in told}
+        return told[0] if len(told) > 1 and len(alike) == 1 else ""
+
+    def _by_chance(self, again: Student) -> str:
+        """Return a sentence if two equal calls have different answers."""
+        failure = next((each for each in self.failures if each.quick), None)
+        if failure is None:
+            return ""
+        return looked_at_again(failure, again, partial(self._our_student, 10.0)).strip()
+
+    def _our_student(self, seconds: float) -> Student:
+        limits = seconds, self.task.memory, self.ours.server, True
+        return Student(self.ours.place, *limits, refused=self.task.refused)
+
+    def _shown(self, first: Failure, again: Student) -> str:
+        """Return the failure's sentence, about a small call if it does not show its own."""
+        if first.shown or not first.direct or not first.quick:
+            return first.text
+        ours = partial(self._our_student, 10.0)
+        small = smallest_case(first.direct, again, ours)
+        answers = answers_afresh(small[1], self.begun, ours) if small else None
+        if small and answers and distance(*answers) > TIE:
+            return difference(small[0], *answers)
+        return first.text

@@ -1,0 +1,84 @@
+"""Show all calls of a task with the answers of a submission and of our solution."""
+
+from __future__ import annotations
+
+from contextlib import closing
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.console import Console
+from rich.markup import escape
+
+from botschool.errors import BotschoolError
+from botschool.grading.declare.checks import Wrong, plain
+from botschool.grading.declare.exercise import Exercise, Task
+from botschool.grading.declare.same import Same
+from botschool.grading.declare.values import kind, show
+from botschool.grading.judge.submission import opened
+from botschool.grading.run.confined import fork_server
+from botschool.grading.run.student import Student
+
+MOST = 3
+"""Wrong calls of a check to show with their numbers."""
+NUMBERS = 40
+"""Numbers of an array to show."""
+
+
+def explain(exercise: Exercise, task: Task, file: Path, console: Console) -> None:
+    """Print the calls of a task that declares its inputs. Raises BotschoolError."""
+    checks = [check for _, _, check in task.checks if isinstance(check, Same)]
+    if not checks:
+        raise BotschoolError(
+            f"Task {task.id} has no calls to compare: botschool grade {task.id} says what it asks."
+        )
+    console.print(f"[bold]Task {task.id}. {escape(task.title)}[/]")
+    with (
+        fork_server(exercise.imports) as server,
+        opened(exercise, file, server) as submission,
+        closing(submission.begun(task)) as student,
+    ):
+        for check in checks:
+            console.print(f"[bold]{check.__name__.replace('_', ' ')}[/]")
+            _calls(check, student, console)
+
+
+def _calls(check: Same, student: Student, console: Console) -> None:
+    wrong = 0
+    for arguments in [*check.inputs(), *(each for _, each in check.more())]:
+        ours = check.task.exercise.ours.answer(check.what, arguments)
+        if ours.raised:
+            continue
+        try:
+            got = check.ask(student, arguments, ours.seconds)
+            wanted = check.seen("", ours.value, arguments)
+            seen = check.seen(student.said, got, arguments)
+            problem = "" if check.equal(arguments, got, ours.value) else "wrong"
+        except Wrong as error:
+            problem, got = str(error), None
+        wrong += bool(problem)
+        mark = "[red]✗[/]" if problem else "[green]✓[/]"
+        console.print(f" {mark} {escape(plain(student.said))}", soft_wrap=True)
+        if problem and got is None:
+            console.print(f"     {escape(plain(problem))}", soft_wrap=True)
+        elif problem and wrong <= MOST:
+            for word, value in (("returned", seen), ("expected", wanted)):
+                console.print(f"     {word}  {escape(plain(_whole(value)))}", soft_wrap=True)
+
+
+def _whole(value: Any) -> str:
+    """Return a value with its shape and its numbers."""
+    if isinstance(value, dict):
+        return "\n               ".join(f"{key}: {_whole(each)}" for key, each in value.items())
+    if isinstance(value, (list, tuple)) and any(isinstance(e, (np.ndarray, dict)) for e in value):
+        return "\n               ".join(f"[{i}]: {_whole(each)}" for i, each in enumerate(value))
+    if not isinstance(value, (np.ndarray, list, tuple)):
+        return show(value, 200)
+    many = np.asarray(value, dtype=object if isinstance(value, (list, tuple)) else None)
+    text = np.array2string(
+        np.asarray(value) if many.dtype != object else many,
+        precision=6, threshold=NUMBERS, separator=", ", max_line_width=88, prefix=" " * 15,
+    )  # fmt: skip
+    return f"{kind(value) if isinstance(value, np.ndarray) else f'a list of {len(value)}'}\n" + (
+        f"               {text}"
+    )

@@ -1,0 +1,64 @@
+"""Prove that each automatic slip of a solution (judge/variations.py) loses points of its task.
+
+equal/exNN.txt names the slips that change no answer. `pytest -m course -k ex08` tries all slips of
+an exercise, and `make test` a sample. Exercises whose graders declare no inputs yet are left out.
+"""
+
+import hashlib
+import warnings
+
+import pytest
+
+import building
+from botschool.grading.judge.variations import variations
+from direct import DirectOurs, problem
+
+SAMPLE = 12
+"""Slips of an exercise in the sample."""
+QUICK = 20
+"""Seconds of a task, at most, whose checks are tried."""
+
+
+def slips(number):
+    """(task, slip) of all tasks that declare inputs."""
+    loaded = building.exercise(number)
+    loaded.ours = DirectOurs(loaded.known.solution)
+    if not loaded.tasks[0].declared:
+        return []
+    return [
+        (task, slip)
+        for task in loaded.tasks
+        if task.seconds <= QUICK
+        for slip in variations(loaded.known.solution, task.id)
+    ]
+
+
+def equal(number):
+    """The lines of the file of slips that change no answer."""
+    path = building.HERE / "equal" / f"ex{number:02d}.txt"
+    return set(path.read_text(encoding="utf-8").splitlines()) if path.is_file() else set()
+
+
+def missed(number, chosen):
+    """Lines for the slips that lose no points."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return {f"{task.id}: {each.what}" for task, each in chosen if not problem(task, each.text)}
+
+
+def order(pair):
+    return hashlib.sha256(pair[1].text.encode()).digest()
+
+
+@pytest.mark.parametrize("number", building.GRADED, ids="ex{:02d}".format)
+def test_some_slips_lose_points(number):
+    chosen = sorted(slips(number), key=order)[:SAMPLE]
+    assert not missed(number, chosen) - equal(number)
+
+
+@pytest.mark.course
+@pytest.mark.parametrize("number", building.GRADED, ids="ex{:02d}".format)
+def test_every_slip_loses_points(number):
+    found = missed(number, slips(number))
+    assert not found - equal(number), "\n".join(sorted(found - equal(number)))
+    assert found == equal(number), "these are caught: take them out of the file"
