@@ -151,13 +151,14 @@ def stability(curve):
 
 
 def train(environment, seed):
-    """Small generations, one candidate after another."""
+    """Small generations, a few candidates after another."""
     robot = Robot(environment)
     rng = np.random.default_rng([seed, 7])
     centre = (0.1 * rng.standard_normal(robot.nbiases + robot.nweights)).tolist()
 
     def evaluate(candidates, s):
-        return [robot.evaluate(np.array([c]), s, episodes=10)[0] for c in candidates]
+        parts = [np.array(candidates[i : i + 5]) for i in range(0, len(candidates), 5)]
+        return [fitness for part in parts for fitness in robot.evaluate(part, s, episodes=10)]
 
     many = 90 if environment.startswith("Cart") else 700
     return list(evolve(evaluate, np.array(centre), many, seed, 15, 0.2, 0.05)["centre"])
