@@ -39,6 +39,7 @@ void bind_evonet(nb::module_& module);
 void bind_arena(nb::module_& module);
 void bind_engine(nb::module_& module);
 void bind_planar(nb::module_& module);
+void bind_spatial(nb::module_& module);
 void bind_linear(nb::module_& module);
 void bind_evolution(nb::module_& module);
 void bind_policy_gradient(nb::module_& module);

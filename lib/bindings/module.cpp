@@ -11,6 +11,7 @@ NB_MODULE(_core, module) {
   botschool::bind_arena(module);
   botschool::bind_engine(module);
   botschool::bind_planar(module);
+  botschool::bind_spatial(module);
   botschool::bind_linear(module);
   botschool::bind_evolution(module);
   botschool::bind_policy_gradient(module);

@@ -25,7 +25,15 @@ NATIVE = {name: (name, info["limit"]) for name, info in INFOS.items()} | {
 """Name in experiment files -> (name in C++, longest episode)."""
 
 RUNNERS = tuple(
-    f"Planar{body}-v{version}" for body in ("Hopper", "Walker2D", "HalfCheetah") for version in "05"
+    f"{body}-v{version}"
+    for body in (
+        "PlanarHopper",
+        "PlanarWalker2D",
+        "PlanarHalfCheetah",
+        "SpatialAnt",
+        "SpatialHumanoid",
+    )
+    for version in "05"
 )
 """Problems that take the option `alive`."""
 
@@ -51,7 +59,7 @@ class NativeProblem(Problem):
         plan: Plan | None = None,
         alive: float = 0.0,
     ) -> None:
-        """Make the problem; alive: a planar runner's reward for each step that does not end its
+        """Make the problem; alive: a runner's reward for each step that does not end its
         episode early, in addition to the problem's own reward.
         """
         self.name = name

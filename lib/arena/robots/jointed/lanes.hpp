@@ -25,7 +25,11 @@ struct Lanes {
 
   Lanes() = default;
   BOTSCHOOL_INLINE Lanes(T x) {
+#if defined(__GNUC__)
+    data = x - Data{};  // a loop would become blends of halves
+#else
     for (int l = 0; l < W; ++l) data[l] = x;
+#endif
   }
   /// From W numbers in memory, and back.
   template <class From>
@@ -93,6 +97,16 @@ BOTSCHOOL_INLINE Lanes<T, W> smaller(Lanes<T, W> a, Lanes<T, W> b) {
   return if_positive(a - b, b, a);
 }
 
+/// Whether x > 0 in any lane.
+template <class T, int W>
+BOTSCHOOL_INLINE bool any_positive(Lanes<T, W> x) {
+  const Lanes<T, W> found = if_positive(x, Lanes<T, W>(T(1)), Lanes<T, W>(T(0)));
+  std::uint32_t words[sizeof found / 4], any = 0;
+  std::memcpy(words, &found, sizeof found);
+  for (const std::uint32_t word : words) any |= word;
+  return any != 0;
+}
+
 template <class T, int W>
 BOTSCHOOL_INLINE Lanes<T, W> square_root(Lanes<T, W> x) {
   alignas(64) T values[W];
@@ -130,6 +144,73 @@ template <class V>
 BOTSCHOOL_INLINE Vector2<V> turn(Vector2<V> a) {
   return {-a.z, a.x};
 }
+
+/// A vector in space, in lanes.
+template <class V>
+struct Vector3 {
+  V x, y, z;
+  friend BOTSCHOOL_INLINE Vector3 operator+(Vector3 a, Vector3 b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+  friend BOTSCHOOL_INLINE Vector3 operator-(Vector3 a, Vector3 b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
+  friend BOTSCHOOL_INLINE Vector3 operator*(V s, Vector3 a) {
+    return {s * a.x, s * a.y, s * a.z};
+  }
+};
+
+template <class V>
+BOTSCHOOL_INLINE V dot(Vector3<V> a, Vector3<V> b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <class V>
+BOTSCHOOL_INLINE Vector3<V> cross(Vector3<V> a, Vector3<V> b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// A 3 x 3 matrix by its columns.
+template <class V>
+struct Matrix3 {
+  Vector3<V> column[3];
+  BOTSCHOOL_INLINE Vector3<V> times(Vector3<V> a) const {
+    return a.x * column[0] + a.y * column[1] + a.z * column[2];
+  }
+  /// The transposed matrix times a.
+  BOTSCHOOL_INLINE Vector3<V> back(Vector3<V> a) const {
+    return {dot(column[0], a), dot(column[1], a), dot(column[2], a)};
+  }
+  BOTSCHOOL_INLINE void add(const Matrix3& b) {
+    for (int k = 0; k < 3; ++k) column[k] = column[k] + b.column[k];
+  }
+};
+
+template <class V>
+struct Symmetric3 {
+  V xx, yy, zz, xy, xz, yz;
+  BOTSCHOOL_INLINE Vector3<V> times(Vector3<V> a) const {
+    return {xx * a.x + xy * a.y + xz * a.z, xy * a.x + yy * a.y + yz * a.z,
+            xz * a.x + yz * a.y + zz * a.z};
+  }
+  BOTSCHOOL_INLINE void add(const Symmetric3& b) {
+    xx += b.xx;
+    yy += b.yy;
+    zz += b.zz;
+    xy += b.xy;
+    xz += b.xz;
+    yz += b.yz;
+  }
+  /// Subtracts s u^T, which is symmetric.
+  BOTSCHOOL_INLINE void reduce(Vector3<V> s, Vector3<V> u) {
+    xx -= s.x * u.x;
+    yy -= s.y * u.y;
+    zz -= s.z * u.z;
+    xy -= s.x * u.y;
+    xz -= s.x * u.z;
+    yz -= s.y * u.z;
+  }
+};
 
 /// A symmetric 2 x 2 matrix: resistance to motion in the plane.
 template <class V>

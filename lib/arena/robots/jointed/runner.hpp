@@ -7,9 +7,6 @@
 
 BOTSCHOOL_BEGIN
 
-/// A larger sum of speeds (m/s, rad/s) ends an episode: the simulation has broken down.
-constexpr double kWildest = 300;
-
 /// The reward of a runner, and the ends of its episode.
 struct Race {
   double seconds;       ///< of a step

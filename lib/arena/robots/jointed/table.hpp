@@ -56,6 +56,8 @@ struct Limit {
 };
 
 constexpr double kGravity = 9.81;
+/// A larger sum of speeds (m/s, rad/s) ends an episode: the simulation has broken down.
+constexpr double kWildest = 300;
 constexpr double kDensity = 1000;
 
 /// Defaults of the optional members of a table.

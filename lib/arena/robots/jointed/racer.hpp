@@ -1,0 +1,199 @@
+// A body in space that should run ahead, or stand up, as a native problem.
+// docs/specification.md, "Bodies in space".
+#pragma once
+
+#include "solids.hpp"
+#include "space.hpp"
+
+BOTSCHOOL_BEGIN
+
+/// The reward of a body in space, and the ends of its episode.
+struct Course {
+  const Solid* solid;
+  double seconds;         ///< of a step
+  int substeps;           ///< in a step
+  double height;          ///< of the root's origin at the start
+  double noise;           ///< start: coordinates are uniform within +-noise of the rest
+  bool gaussian;          ///< whether speeds are Gaussian, with sd noise, or uniform, too
+  double low, high;       ///< height of the root, beyond which an episode ends
+  double range = 1;       ///< largest action
+  double ahead = 1;       ///< paid for each m/s
+  bool centre = false;    ///< of the centre of mass, or of the root
+  double alive = 0;       ///< paid for each step without a fall
+  double effort = 0;      ///< price of the sum of squared actions
+  double lift = 0;        ///< paid for each metre of height
+  Firmness firm{};
+};
+
+/// Rows of a state: coordinates and speeds as MuJoCo has them (the root's place, its quaternion with w
+/// first, the angles of hinges; the root's velocity, its angular velocity along its own axes, the rates
+/// of hinges), then of each ball how far the ground holds it back (x, y, z), and its mean force across
+/// the ground in the last step.
+struct Rows {
+  int links, balls;
+  int speed() const { return links + 6; }
+  int stretch() const { return 2 * links + 11; }
+  int load() const { return stretch() + 3 * balls; }
+  int count() const { return load() + balls; }
+};
+constexpr int kMaxRows = 2 * kMaxLinks + 11 + 4 * kMaxBalls;
+
+/// Puts W lanes of a state into a body. x and y of its place become 0: the whole way needs double
+/// precision.
+template <class Body, class F>
+void load_state(Body& body, const Rows& rows, F row) {
+  using V = typename Body::V;
+  body.place = {V(0), V(0), row(2)};
+  for (int k = 0; k < 4; ++k) body.attitude[k] = row(3 + k);
+  for (int i = 1; i < rows.links; ++i) {
+    body.angle[i] = row(6 + i);
+    body.rate[i] = row(rows.speed() + 5 + i);
+  }
+  const int s = rows.speed();
+  body.speed.move = {row(s), row(s + 1), row(s + 2)};
+  body.put(0);
+  body.speed.turn = body.part[0].turned.times({row(s + 3), row(s + 4), row(s + 5)});
+  for (int c = 0; c < rows.balls; ++c) {
+    const int first = rows.stretch() + 3 * c;
+    body.stretch[c] = {row(first), row(first + 1), row(first + 2)};
+  }
+}
+
+/// The other way: write(row, lanes). `share`: 1 / substeps.
+template <class Body, class F>
+void store_state(Body& body, const Rows& rows, double share, F write) {
+  using V = typename Body::V;
+  write(0, body.place.x);
+  write(1, body.place.y);
+  write(2, body.place.z);
+  for (int k = 0; k < 4; ++k) write(3 + k, body.attitude[k]);
+  for (int i = 1; i < rows.links; ++i) {
+    write(6 + i, body.angle[i]);
+    write(rows.speed() + 5 + i, body.rate[i]);
+  }
+  body.put(0);
+  const auto spin = body.part[0].turned.back(body.speed.turn);
+  const V six[] = {body.speed.move.x, body.speed.move.y, body.speed.move.z, spin.x, spin.y, spin.z};
+  for (int k = 0; k < 6; ++k) write(rows.speed() + k, six[k]);
+  for (int c = 0; c < rows.balls; ++c) {
+    const V three[] = {body.stretch[c].x, body.stretch[c].y, body.stretch[c].z};
+    for (int k = 0; k < 3; ++k) write(rows.stretch() + 3 * c + k, three[k]);
+    write(rows.load() + c, Body::number(share) * body.load[c]);
+  }
+}
+
+template <int L>
+struct Racer : ProblemBase {
+  static constexpr int kWidth = kRegister / 4 < L ? kRegister / 4 : L;
+  using Moving = Space<float, kWidth>;
+  using V = Lanes<float, kWidth>;
+
+  explicit Racer(const Course& of) : course(&of), rows{of.solid->links, Balls(*of.solid).count} {
+    moving.read(*of.solid, of.firm);
+  }
+
+  static Info describe(const char* name, const Course& course) {
+    const Solid& solid = *course.solid;
+    const Rows rows{solid.links, Balls(solid).count};
+    Info info;
+    info.name = name;
+    info.observations = rows.stretch() - 2;
+    info.outputs = solid.motors;
+    info.states = rows.count();
+    info.limit = 1000;
+    info.low = -course.range;
+    info.high = course.range;
+    info.seconds = course.seconds;
+    return info;
+  }
+
+  double state[kMaxRows][L];
+  const Course* course;
+  Rows rows;
+
+  /// The coordinates but x and y, and the speeds.
+  template <class T>
+  void observe(T* BOTSCHOOL_RESTRICT out) const {
+    for (int k = 2; k < rows.stretch(); ++k)
+      for (int l = 0; l < L; ++l) out[(k - 2) * L + l] = static_cast<T>(state[k][l]);
+  }
+
+  void start(int lane, Random& random) {
+    for (int k = 0; k < rows.count(); ++k) state[k][lane] = 0;
+    const Solid& solid = *course->solid;
+    const double noise = course->noise;
+    for (int k = 0; k < rows.speed(); ++k) state[k][lane] = random.uniform(-noise, noise);
+    for (int k = rows.speed(); k < rows.stretch(); ++k)
+      state[k][lane] = course->gaussian ? noise * random.gaussian() : random.uniform(-noise, noise);
+    state[2][lane] += course->height;
+    state[3][lane] += 1;
+    double square = 0;
+    for (int k = 3; k < 7; ++k) square += state[k][lane] * state[k][lane];
+    for (int k = 3; k < 7; ++k) state[k][lane] /= std::sqrt(square);
+    for (int i = 1; i < rows.links; ++i) {
+      const Hinge& hinge = solid.link[i].hinge;
+      if (hinge.low < hinge.high)
+        state[6 + i][lane] = limited(state[6 + i][lane], hinge.low, hinge.high);
+    }
+  }
+
+  void step(const double* action, double* reward, std::int64_t* ended) {
+    for (int first = 0; first < L; first += kWidth) {
+      load_state(moving, rows, [&](int row) { return V::from(&state[row][first]); });
+      V motor[kMaxLinks], effort = V(0.0f);
+      for (int i = 0; i < course->solid->motors; ++i) {
+        double within[kWidth];
+        for (int l = 0; l < kWidth; ++l)
+          within[l] = limited(action[i * L + first + l], -course->range, course->range);
+        motor[i] = V::from(within);
+        effort += motor[i] * motor[i];
+      }
+      V way = course->centre ? -moving.ahead() : V(0.0f);
+      moving.run(motor, course->substeps, float(course->seconds / course->substeps));
+      way += moving.place.x;
+      if (course->centre) way += moving.ahead();
+      const V height = moving.place.z;
+      const V standing = smaller(height - number(course->low), number(course->high) - height);
+      const V earned = number(course->ahead / course->seconds) * way + number(course->lift) * height +
+                       if_positive(standing, number(course->alive), V(0.0f)) -
+                       number(course->effort) * effort;
+      const V real = real_numbers();
+      if_positive(real, earned, V(0.0f)).to(reward + first);
+      double goes[kWidth];
+      if_positive(real, if_positive(standing, V(1.0f), V(0.0f)), V(0.0f)).to(goes);
+      for (int l = 0; l < kWidth; ++l) ended[first + l] = !(goes[l] > 0);
+      keep(first, real);
+    }
+  }
+
+ private:
+  static V number(double x) { return V(float(x)); }
+
+  /// Writes the changes, except in lanes whose numbers are not `real`.
+  void keep(int first, V real) {
+    double kept[kWidth], after[kWidth];
+    real.to(kept);
+    store_state(moving, rows, 1.0 / course->substeps, [&](int row, V values) {
+      values.to(after);
+      for (int l = 0; l < kWidth; ++l) {
+        double& old = state[row][first + l];
+        const double next = after[l] + (row < 2 ? old : 0.0);
+        old = kept[l] > 0 ? next : old;
+      }
+    });
+  }
+
+  /// Positive unless a speed is too large or not a number.
+  V real_numbers() const {
+    const auto& place = moving.place;
+    V sum = dot(moving.speed, moving.speed) + number(0.01) * dot(place, place);
+    for (int i = 1; i < rows.links; ++i)
+      sum += moving.rate[i] * moving.rate[i] + number(0.01) * moving.angle[i] * moving.angle[i];
+    for (const V& q : moving.attitude) sum += q * q;
+    return number(kWildest * kWildest) - sum;
+  }
+
+  Moving moving;
+};
+
+BOTSCHOOL_END

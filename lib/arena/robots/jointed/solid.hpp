@@ -1,0 +1,101 @@
+// Tables that describe jointed bodies in space. Metres, kilograms, seconds; x ahead, z up.
+//
+// A body is a tree of links. Each has a frame of its own: its origin lies on the hinge to its
+// parent, and when all hinges are at angle 0 and the root is not turned, all frames have the world's
+// axes. The first link is the root, which moves freely. Links without mass make a joint of several
+// hinges.
+#pragma once
+
+#include <cstddef>
+
+#include "table.hpp"
+
+BOTSCHOOL_BEGIN
+
+/// The most that a body has.
+constexpr int kMaxLinks = 32, kMaxBalls = 48;
+
+struct Place {
+  double x, y, z;
+};
+
+struct Link {
+  const char* name;
+  int parent;   ///< -1 for the root; parents come first
+  Place place;  ///< of its origin in the parent's frame
+  Place axis;   ///< of the hinge, a unit vector
+  Hinge hinge;
+  int motor;  ///< number of the action that moves the hinge, or -1
+  double mass;
+  Place centre;       ///< of mass
+  double inertia[6];  ///< about it: xx, yy, zz, xy, xz, yz
+};
+
+/// A capsule on a link: its middle, half of its axis, its radius. A ball has no axis.
+struct Shape {
+  int link;
+  Place place, half;
+  double radius;
+};
+
+/// How ground and hinges answer: docs/specification.md, "Bodies in space".
+struct Firmness {
+  double friction = 1;                    ///< Coulomb's coefficient
+  double stiffness = 40000;               ///< N/m, across the ground and along it
+  double damping = 800;                   ///< N s/m
+  double limit = 10000, stopping = 1000;  ///< beyond a hinge's limit: N m/rad, N m s/rad
+};
+
+struct Solid {
+  const char* name;
+  const Link* link;
+  const Shape* shape;
+  int links, shapes, motors = 0;
+  double margin;  ///< added to the radius of what touches the ground
+
+  template <std::size_t n, std::size_t s>
+  constexpr Solid(const char* name, const Link (&of)[n], const Shape (&shapes)[s], double margin)
+      : Solid(name, of, int(n), shapes, int(s), margin) {}
+  constexpr Solid(const char* name, const Link* of, int n, const Shape* shapes, int s,
+                  double margin)
+      : name(name), link(of), shape(shapes), links(n), shapes(s), margin(margin) {
+    for (int i = 0; i < n; ++i)
+      if (of[i].motor >= motors) motors = of[i].motor + 1;
+  }
+};
+
+/// A ball at an end of a shape, which touches the ground.
+struct Ball {
+  int link;
+  Place place;
+  double radius;
+};
+
+/// The balls of a body, each place once.
+struct Balls {
+  int count = 0;
+  Ball ball[kMaxBalls];
+
+  explicit Balls(const Solid& solid) {
+    for (int s = 0; s < solid.shapes; ++s) {
+      const Shape& shape = solid.shape[s];
+      const Place &p = shape.place, &h = shape.half;
+      add({shape.link, {p.x - h.x, p.y - h.y, p.z - h.z}, shape.radius + solid.margin});
+      add({shape.link, {p.x + h.x, p.y + h.y, p.z + h.z}, shape.radius + solid.margin});
+    }
+  }
+
+ private:
+  static bool same(const Ball& a, const Ball& b) {
+    const double x = a.place.x - b.place.x, y = a.place.y - b.place.y, z = a.place.z - b.place.z,
+                 r = a.radius - b.radius;
+    return a.link == b.link && x * x + y * y + z * z + r * r < 1e-12;
+  }
+  void add(const Ball& next) {
+    for (int i = 0; i < count; ++i)
+      if (same(ball[i], next)) return;
+    if (count < kMaxBalls) ball[count++] = next;
+  }
+};
+
+BOTSCHOOL_END

@@ -1,0 +1,491 @@
+// Motion of a jointed body in space, in lanes; the body's table is read at run time.
+// docs/specification.md, "Bodies in space", has the rules.
+//
+// The articulated-body algorithm (Featherstone 2008, "Rigid Body Dynamics Algorithms", chapter 7),
+// with all vectors along the world's axes and about the place where the root's origin is: so inertia
+// and forces of links are summed without turning them. What the ground and the limits of hinges
+// answer to a change of speed joins the inertia (implicit Euler), so they may be firm.
+//
+// A substep goes half its way with the old speeds, changes them by the forces there, and goes the
+// other half with the new ones. Terms that are quadratic in the speeds use the speeds in the middle
+// of the change, predicted from the last substep's change.
+#pragma once
+
+#include "lanes.hpp"
+#include "solid.hpp"
+#include "terrain.hpp"
+
+BOTSCHOOL_BEGIN
+
+/// A motion (turning, moving), or a torque about the root's origin and a force.
+template <class V>
+struct Screw {
+  Vector3<V> turn, move;
+  friend BOTSCHOOL_INLINE Screw operator+(Screw a, Screw b) {
+    return {a.turn + b.turn, a.move + b.move};
+  }
+  friend BOTSCHOOL_INLINE Screw operator*(V s, Screw a) { return {s * a.turn, s * a.move}; }
+};
+
+template <class V>
+BOTSCHOOL_INLINE V dot(const Screw<V>& a, const Screw<V>& b) {
+  return dot(a.turn, b.turn) + dot(a.move, b.move);
+}
+
+/// How motion b changes when its frame moves with motion a.
+template <class V>
+BOTSCHOOL_INLINE Screw<V> carried(const Screw<V>& a, const Screw<V>& b) {
+  return {cross(a.turn, b.turn), cross(a.turn, b.move) + cross(a.move, b.turn)};
+}
+
+/// A symmetric 6 x 6 matrix: torque = turning w + coupling v, force = coupling^T w + moving v.
+template <class V>
+struct Inertia {
+  Symmetric3<V> turning, moving;
+  Matrix3<V> coupling;
+
+  BOTSCHOOL_INLINE Screw<V> times(const Screw<V>& a) const {
+    return {turning.times(a.turn) + coupling.times(a.move),
+            coupling.back(a.turn) + moving.times(a.move)};
+  }
+  BOTSCHOOL_INLINE void add(const Inertia& b) {
+    turning.add(b.turning);
+    moving.add(b.moving);
+    coupling.add(b.coupling);
+  }
+  /// Subtracts s * u u^T.
+  BOTSCHOOL_INLINE void reduce(const Screw<V>& u, V s) {
+    const Screw<V> su = s * u;
+    turning.reduce(su.turn, u.turn);
+    moving.reduce(su.move, u.move);
+    coupling.column[0] = coupling.column[0] - u.move.x * su.turn;
+    coupling.column[1] = coupling.column[1] - u.move.y * su.turn;
+    coupling.column[2] = coupling.column[2] - u.move.z * su.turn;
+  }
+};
+
+/// A table in the precision of the lanes.
+template <class T>
+struct Numbers3 {
+  struct One {
+    int parent, motor, along;  ///< along: the axis is x, y or z, forwards or backwards; else 3
+    bool heavy, limited;
+    T sign, place[3], axis[3], centre[3], mass, inertia[6];
+    T low, high, torque, damping, stiffness, armature;
+  };
+  struct Touching {
+    int link;
+    T place[3], radius;
+  };
+  int links, balls;
+  One link[kMaxLinks];
+  Touching ball[kMaxBalls];
+
+  void read(const Solid& solid) {
+    links = solid.links;
+    for (int i = 0; i < links; ++i) {
+      const Link& from = solid.link[i];
+      One& to = link[i];
+      const double axis[3] = {from.axis.x, from.axis.y, from.axis.z};
+      to.parent = from.parent;
+      to.motor = from.motor;
+      to.along = 3;
+      to.sign = T(1);
+      for (int k = 0; k < 3; ++k) {
+        if (axis[k] != 1 && axis[k] != -1) continue;
+        to.along = k;
+        to.sign = T(axis[k]);
+      }
+      copy(to.place, from.place);
+      copy(to.axis, from.axis);
+      copy(to.centre, from.centre);
+      to.heavy = from.mass > 0;
+      to.mass = T(from.mass);
+      for (int k = 0; k < 6; ++k) to.inertia[k] = T(from.inertia[k]);
+      to.limited = from.hinge.low < from.hinge.high;
+      to.low = T(from.hinge.low);
+      to.high = T(from.hinge.high);
+      to.torque = T(from.hinge.torque);
+      to.damping = T(from.hinge.damping);
+      to.stiffness = T(from.hinge.stiffness);
+      to.armature = T(from.hinge.armature);
+    }
+    const Balls from(solid);
+    balls = from.count;
+    for (int c = 0; c < balls; ++c) {
+      ball[c].link = from.ball[c].link;
+      copy(ball[c].place, from.ball[c].place);
+      ball[c].radius = T(from.ball[c].radius);
+    }
+  }
+
+ private:
+  static void copy(T* to, const Place& from) {
+    to[0] = T(from.x);
+    to[1] = T(from.y);
+    to[2] = T(from.z);
+  }
+};
+
+template <class T, int W>
+struct Space {
+  using V = Lanes<T, W>;
+  using Vec = Vector3<V>;
+
+  Numbers3<T> numbers;
+  T gravity = T(kGravity);
+  T limit, stopping;  ///< of hinges: Firmness
+
+  // the ground, and what may differ from lane to lane
+  Terrain<V> terrain;
+  V friction, stiffness, damping, strength;  ///< strength: of motors, 1 for the table's
+
+  // the state
+  Vec place;                            ///< of the root's origin
+  V attitude[4];                        ///< the root's quaternion, w first
+  Screw<V> speed;                       ///< of the root: turning (in the world's axes) and moving
+  V angle[kMaxLinks], rate[kMaxLinks];  ///< of each link's hinge; the root's are not used
+  Vec stretch[kMaxBalls];               ///< how far the ground holds a ball back along itself
+
+  Screw<V> change;  ///< of the speeds in the last substep, halved
+  V rate_change[kMaxLinks];
+  V load[kMaxBalls];  ///< sum over substeps of the ground's force across itself, N
+
+  /// What is computed of a link.
+  struct Part {
+    Matrix3<V> turned;  ///< its axes
+    Vec origin;
+    Screw<V> axis;                 ///< motion at a rate of 1
+    Screw<V> now, middle;          ///< motion; now: only of links with balls and of their parents
+    Screw<V> carried;              ///< acceleration without a change of the rate
+    Inertia<V> inertia;
+    Screw<V> force;                ///< that it takes to accelerate not at all
+    Screw<V> answer;               ///< inertia * axis
+    V inverse, pull;
+    V bend;  ///< acceleration of the hinge
+    Screw<V> acceleration;
+  };
+  Part part[kMaxLinks];
+
+  static BOTSCHOOL_INLINE V number(double x) { return V(T(x)); }
+  static BOTSCHOOL_INLINE Vec vector(const T* p) { return {V(p[0]), V(p[1]), V(p[2])}; }
+  static BOTSCHOOL_INLINE Vec none() { return {V(T(0)), V(T(0)), V(T(0))}; }
+
+  void read(const Solid& solid, const Firmness& firm) {
+    numbers.read(solid);
+    limit = T(firm.limit);
+    stopping = T(firm.stopping);
+    friction = V(T(firm.friction));
+    stiffness = V(T(firm.stiffness));
+    damping = V(T(firm.damping));
+    strength = V(T(1));
+    terrain = Terrain<V>();
+  }
+
+  /// Before the first substep: what is not part of the state.
+  void begin() {
+    change = {none(), none()};
+    for (int i = 0; i < numbers.links; ++i) rate_change[i] = V(T(0));
+    for (int c = 0; c < numbers.balls; ++c) load[c] = V(T(0));
+  }
+
+  /// Moves the body for some substeps of h seconds; `action`: of each motor.
+  void run(const V* action, int substeps, T h) {
+    begin();
+    drift(h * T(0.5));
+    for (int s = 0; s < substeps; ++s) {
+      kick(action, h);
+      drift(s + 1 < substeps ? h : h * T(0.5));
+    }
+  }
+
+  /// Where link i is, after its parent.
+  BOTSCHOOL_INLINE void put(int i) {
+    Part& p = part[i];
+    if (i == 0) {
+      const V w = attitude[0], x = attitude[1], y = attitude[2], z = attitude[3];
+      const V one(T(1)), two(T(2));
+      p.turned = {{{one - two * (y * y + z * z), two * (x * y + w * z), two * (x * z - w * y)},
+                  {two * (x * y - w * z), one - two * (x * x + z * z), two * (y * z + w * x)},
+                  {two * (x * z + w * y), two * (y * z - w * x), one - two * (x * x + y * y)}}};
+      p.origin = none();
+      return;
+    }
+    const auto& link = numbers.link[i];
+    const Part& up = part[link.parent];
+    p.origin = up.origin + up.turned.times(vector(link.place));
+    V sine, cosine;
+    sine_cosine(angle[i], sine, cosine);
+    if (link.along < 3) {
+      const int k = link.along, a = (k + 1) % 3, b = (k + 2) % 3;
+      sine = V(link.sign) * sine;
+      const Vec *from = up.turned.column, first = from[a], second = from[b];
+      Vec* to = p.turned.column;
+      to[k] = from[k];
+      to[a] = cosine * first + sine * second;
+      to[b] = cosine * second - sine * first;
+      p.axis.turn = V(link.sign) * from[k];
+    } else {
+      const Vec axis = up.turned.times(vector(link.axis));
+      const auto turned = [&](Vec v, T share) {
+        const Vec along = V(share) * axis;
+        return along + cosine * (v - along) + sine * cross(axis, v);
+      };
+      for (int k = 0; k < 3; ++k)
+        p.turned.column[k] = turned(up.turned.column[k], link.axis[k]);
+      p.axis.turn = axis;
+    }
+    p.axis.move = cross(p.origin, p.axis.turn);
+  }
+
+  /// The place of the centre of mass along x, from the root's origin.
+  V ahead() {
+    V sum(T(0));
+    T mass = T(0);
+    for (int i = 0; i < numbers.links; ++i) {
+      put(i);
+      const auto& link = numbers.link[i];
+      const Vec centre = part[i].origin + part[i].turned.times(vector(link.centre));
+      sum += V(link.mass) * centre.x;
+      mass += link.mass;
+    }
+    return sum * V(T(1) / mass);
+  }
+
+  /// Inertia of each link together with all that hangs on it, at rest.
+  void inertias() {
+    speed = change = {none(), none()};
+    for (int i = 0; i < numbers.links; ++i) {
+      rate[i] = rate_change[i] = V(T(0));
+      put(i);
+      move(i);
+      weigh(i);
+    }
+    for (int i = numbers.links - 1; i > 0; --i)
+      part[numbers.link[i].parent].inertia.add(part[i].inertia);
+  }
+
+  /// Changes the speeds by the forces of a substep.
+  void kick(const V* action, T h) {
+    for (int i = 0; i < numbers.links; ++i) {
+      put(i);
+      move(i);
+      weigh(i);
+    }
+    touch(h);
+    for (int i = numbers.links - 1; i > 0; --i) fold(i, action, h);
+    solve();
+    const T half = h * T(0.5);
+    for (int i = 1; i < numbers.links; ++i) {
+      unfold(i);
+      rate_change[i] = V(half) * part[i].bend;
+    }
+    const Screw<V> middle = speed + change;
+    const Screw<V>& acceleration = part[0].acceleration;
+    change = V(half) * Screw<V>{acceleration.turn,
+                                acceleration.move + cross(middle.turn, middle.move)};
+    speed = speed + V(T(2)) * change;
+    for (int i = 1; i < numbers.links; ++i) rate[i] += V(T(2)) * rate_change[i];
+  }
+
+  /// Moves on by h seconds with the speeds as they are.
+  void drift(T h) {
+    place = place + V(h) * speed.move;
+    for (int i = 1; i < numbers.links; ++i) angle[i] += V(h) * rate[i];
+    const V w = attitude[0], x = attitude[1], y = attitude[2], z = attitude[3];
+    const Vec t = V(h * T(0.5)) * speed.turn;
+    // (1, t) times the quaternion, at length 1 again: a turn by 2 atan |t|
+    attitude[0] = w - (t.x * x + t.y * y + t.z * z);
+    attitude[1] = x + (t.x * w + t.y * z - t.z * y);
+    attitude[2] = y + (t.y * w + t.z * x - t.x * z);
+    attitude[3] = z + (t.z * w + t.x * y - t.y * x);
+    V square(T(0));
+    for (const V& q : attitude) square += q * q;
+    const V scale = V(T(1)) / square_root(square);
+    for (V& q : attitude) q = q * scale;
+  }
+
+ private:
+  BOTSCHOOL_INLINE void move(int i) {
+    Part& p = part[i];
+    if (i == 0) {
+      p.now = speed;
+      p.middle = speed + change;
+      return;
+    }
+    const Part& up = part[numbers.link[i].parent];
+    p.now = up.now + rate[i] * p.axis;
+    const Screw<V> joint = (rate[i] + rate_change[i]) * p.axis;
+    p.middle = up.middle + joint;
+    p.carried = carried(up.middle, joint);
+  }
+
+  /// Inertia of a link, and the force that its motion and its weight take.
+  BOTSCHOOL_INLINE void weigh(int i) {
+    const auto& link = numbers.link[i];
+    Part& p = part[i];
+    const V zero(T(0));
+    if (!link.heavy) {
+      p.inertia = {{zero, zero, zero, zero, zero, zero},
+                   {zero, zero, zero, zero, zero, zero},
+                   {{none(), none(), none()}}};
+      p.force = {none(), none()};
+      return;
+    }
+    const V mass(link.mass);
+    const Vec c = p.origin + p.turned.times(vector(link.centre)), h = mass * c;
+    const T* own = link.inertia;
+    const Vec* r = p.turned.column;
+    // the link's inertia times its axes
+    const Vec x = V(own[0]) * r[0] + V(own[3]) * r[1] + V(own[4]) * r[2];
+    const Vec y = V(own[3]) * r[0] + V(own[1]) * r[1] + V(own[5]) * r[2];
+    const Vec z = V(own[4]) * r[0] + V(own[5]) * r[1] + V(own[2]) * r[2];
+    const auto about = [&](V Vec::*a, V Vec::*b) {
+      return x.*a * r[0].*b + y.*a * r[1].*b + z.*a * r[2].*b;
+    };
+    constexpr auto X = &Vec::x, Y = &Vec::y, Z = &Vec::z;
+    p.inertia.turning = {about(X, X) + (h.y * c.y + h.z * c.z),
+                         about(Y, Y) + (h.x * c.x + h.z * c.z),
+                         about(Z, Z) + (h.x * c.x + h.y * c.y),
+                         about(X, Y) - h.x * c.y,
+                         about(X, Z) - h.x * c.z,
+                         about(Y, Z) - h.y * c.z};
+    p.inertia.moving = {mass, mass, mass, zero, zero, zero};
+    p.inertia.coupling = {{{zero, h.z, -h.y}, {-h.z, zero, h.x}, {h.y, -h.x, zero}}};
+    const Screw<V>& m = p.middle;
+    const Vec momentum = mass * m.move + cross(m.turn, h);
+    const Vec spin = p.inertia.turning.times(m.turn) + cross(h, m.move);
+    const V g(gravity);
+    p.force.turn = cross(m.turn, spin) + cross(m.move, momentum);
+    p.force.move = cross(m.turn, momentum);
+    p.force.move.z += mass * g;
+    p.force.turn.x += g * h.y;
+    p.force.turn.y -= g * h.x;
+  }
+
+  /// Forces of the ground on all balls.
+  void touch(T h) {
+    const V zero(T(0));
+    for (int c = 0; c < numbers.balls; ++c) {
+      const auto& ball = numbers.ball[c];
+      Part& p = part[ball.link];
+      const Vec centre = p.origin + p.turned.times(vector(ball.place));
+      const V radius(ball.radius);
+      const Piece3<V> below = terrain.under(place.x + centre.x, place.y + centre.y);
+      const V depth = radius - (place.z + centre.z - below.height) * below.normal.z;
+      if (!any_positive(depth)) {
+        stretch[c] = none();
+        continue;
+      }
+      const Vec& normal = below.normal;
+      const Vec r = centre - radius * normal;
+      const Vec sliding = p.now.move + cross(p.now.turn, r);
+      const V across = dot(normal, sliding);
+      const Vec along = sliding - across * normal;
+      V firm = V(h) * stiffness + damping;
+      V push = stiffness * depth - firm * across;
+      push = if_positive(depth, larger(push, zero), zero);
+      // a spring along the ground and a damper, as firm, but no more than Coulomb's friction
+      const Vec held = stretch[c] + V(h) * along;
+      const Vec drag = stiffness * held + firm * along;
+      const V most = friction * push;
+      const V size = square_root(dot(drag, drag));
+      const V share = most / larger(larger(size, most), V(T(1e-9)));
+      firm = if_positive(push, firm, zero);
+      stretch[c] = share * held;
+      load[c] += push;
+      const Vec force = push * normal - share * drag;
+      p.force.move = p.force.move - force;
+      p.force.turn = p.force.turn - cross(r, force);
+      resist(p.inertia, r, normal, V(h) * firm, V(h) * share * firm);
+    }
+  }
+
+  /// Adds resistance to a point's motion across and along the ground.
+  static BOTSCHOOL_INLINE void resist(Inertia<V>& inertia, Vec r, Vec normal, V across, V along) {
+    const V extra = across - along;
+    const Vec n = extra * normal;
+    Symmetric3<V> d = {along + n.x * normal.x, along + n.y * normal.y, along + n.z * normal.z,
+                       n.x * normal.y,         n.x * normal.z,         n.y * normal.z};
+    inertia.moving.add(d);
+    // columns of r x d
+    const Vec x = cross(r, Vec{d.xx, d.xy, d.xz}), y = cross(r, Vec{d.xy, d.yy, d.yz}),
+              z = cross(r, Vec{d.xz, d.yz, d.zz});
+    inertia.coupling.add({{x, y, z}});
+    // (r x d) x^T r
+    Symmetric3<V>& t = inertia.turning;
+    t.xx += r.y * z.x - r.z * y.x;
+    t.yy += r.z * x.y - r.x * z.y;
+    t.zz += r.x * y.z - r.y * x.z;
+    t.xy += r.z * x.x - r.x * z.x;
+    t.xz += r.x * y.x - r.y * x.x;
+    t.yz += r.x * y.y - r.y * x.y;
+  }
+
+  /// Adds to its parent what link i, and all that hangs on it, weighs there.
+  BOTSCHOOL_INLINE void fold(int i, const V* action, T h) {
+    const auto& link = numbers.link[i];
+    Part &p = part[i], &up = part[link.parent];
+    const V zero(T(0));
+    V torque = -(V(link.stiffness) * angle[i] + V(link.damping) * rate[i]);
+    V extra(link.armature + link.damping * h * T(0.5));
+    if (link.motor >= 0) torque += V(link.torque) * strength * action[link.motor];
+    if (link.limited) {
+      const V beyond = larger(angle[i] - V(link.high), zero) + smaller(angle[i] - V(link.low), zero);
+      // stops what goes on, and lets go what comes back
+      V firm = if_positive(beyond * rate[i], V(h * limit + stopping), V(h * limit));
+      firm = if_positive(beyond * beyond, firm, zero);
+      torque -= V(limit) * beyond + firm * rate[i];
+      extra += V(h) * firm;
+    }
+    p.answer = p.inertia.times(p.axis);
+    p.inverse = V(T(1)) / (dot(p.axis, p.answer) + extra);
+    p.pull = torque - dot(p.axis, p.force);
+    p.inertia.reduce(p.answer, p.inverse);
+    const Screw<V> force = p.inertia.times(p.carried) + (p.pull * p.inverse) * p.answer;
+    up.force = up.force + p.force + force;
+    up.inertia.add(p.inertia);
+  }
+
+  /// The root's acceleration, by the factors L D L^T of its inertia.
+  void solve() {
+    const Inertia<V>& m = part[0].inertia;
+    const Symmetric3<V>&a = m.turning, &c = m.moving;
+    const Vec* b = m.coupling.column;
+    V full[6][6] = {{a.xx},
+                    {a.xy, a.yy},
+                    {a.xz, a.yz, a.zz},
+                    {b[0].x, b[0].y, b[0].z, c.xx},
+                    {b[1].x, b[1].y, b[1].z, c.xy, c.yy},
+                    {b[2].x, b[2].y, b[2].z, c.xz, c.yz, c.zz}};
+    const Screw<V>& f = part[0].force;
+    V y[6] = {-f.turn.x, -f.turn.y, -f.turn.z, -f.move.x, -f.move.y, -f.move.z};
+    V low[6][6], inverse[6];
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j <= i; ++j) {
+        V s = full[i][j];
+        for (int k = 0; k < j; ++k) s -= low[i][k] * full[j][k];
+        full[i][j] = s;
+        if (i == j)
+          inverse[i] = V(T(1)) / s;
+        else
+          low[i][j] = s * inverse[j];
+      }
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < i; ++j) y[i] -= low[i][j] * y[j];
+    for (int i = 0; i < 6; ++i) y[i] = y[i] * inverse[i];
+    for (int i = 5; i >= 0; --i)
+      for (int j = i + 1; j < 6; ++j) y[i] -= low[j][i] * y[j];
+    part[0].acceleration = {{y[0], y[1], y[2]}, {y[3], y[4], y[5]}};
+  }
+
+  /// Acceleration of link i, after its parent's.
+  BOTSCHOOL_INLINE void unfold(int i) {
+    Part& p = part[i];
+    const Screw<V> given = part[numbers.link[i].parent].acceleration + p.carried;
+    p.bend = (p.pull - dot(p.answer, given)) * p.inverse;
+    p.acceleration = given + p.bend * p.axis;
+  }
+};
+
+BOTSCHOOL_END
