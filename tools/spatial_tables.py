@@ -10,7 +10,12 @@ import numpy as np
 
 TARGET = Path(__file__).parents[1] / "lib" / "arena" / "robots" / "jointed" / "solids.hpp"
 ASSETS = Path(gymnasium.__file__).parent / "envs" / "mujoco" / "assets"
-BODIES = {"ant": "Ant", "humanoid": "Humanoid", "humanoidstandup": "HumanoidStandup"}
+BODIES = {
+    # file: name, friction, stiffness and damping of the ground
+    "ant": ("Ant", "{1, 20000, 400}"),
+    "humanoid": ("Humanoid", "{1, 100000, 2000}"),
+    "humanoidstandup": ("HumanoidStandup", "{1, 100000, 2000}"),
+}
 HEAD = """// Tables of bodies in space: numbers of Gymnasium's models for MuJoCo, written by
 // tools/spatial_tables.py. solid.hpp says what they mean.
 #pragma once
@@ -30,7 +35,7 @@ def text(values) -> str:
     return "{" + ", ".join(map(number, np.ravel(values))) + "}"
 
 
-def table(file: str, name: str) -> str:
+def table(file: str, name: str, firmness: str) -> str:
     """Return the C++ text of a model's links and shapes."""
     m = mujoco.MjModel.from_xml_path(str(ASSETS / f"{file}.xml"))
     d = mujoco.MjData(m)
@@ -79,9 +84,9 @@ def table(file: str, name: str) -> str:
         at = d.geom_xpos[g] - origin[link]
         lines.append(f"  {{{link}, {text(at)}, {text(half)}, {number(m.geom_size[g, 0])}}},")
     lines += ["};", f'inline constexpr Solid k{name}{{"{file}", k{name}Links, k{name}Shapes, '
-              f"{number(m.geom_margin[1])}}};"]  # fmt: skip
+              f"{number(m.geom_margin[1])}, {firmness}}};"]  # fmt: skip
     return "\n".join(lines) + "\n"
 
 
 if __name__ == "__main__":
-    TARGET.write_text(HEAD + "".join(table(*each) for each in BODIES.items()) + "\nBOTSCHOOL_END\n// clang-format on\n")
+    TARGET.write_text(HEAD + "".join(table(file, *each) for file, each in BODIES.items()) + "\nBOTSCHOOL_END\n// clang-format on\n")

@@ -56,7 +56,7 @@ struct Whole {
   std::unique_ptr<SpatialBody> body;
   std::size_t coordinates() const { return body->coordinates(); }
   std::size_t speeds() const { return body->speeds(); }
-  std::size_t state() const { return coordinates() + speeds() + 3 * body->balls().size(); }
+  std::size_t state() const { return coordinates() + speeds() + 4 * body->balls().size(); }
 };
 
 nb::object places(const Whole& whole, Vector<const double> position) {
@@ -80,16 +80,15 @@ nb::object accelerations(const Whole& whole, Vector<const double> position,
       {whole.speeds()});
 }
 
-nb::tuple advance(const Whole& whole, Vector<const double> state, Vector<const double> action,
-                  double h, int steps, double gravity, const Firmness& firm, bool single) {
+nb::object advance(const Whole& whole, Vector<const double> state, Vector<const double> action,
+                  double h, int steps, double gravity, const Firmness* firm, bool single) {
   expect_size(state, whole.state(), "the state");
   expect_size(action, whole.body->solid().motors, "the action");
   if (steps < 1 || !(h > 0)) throw std::invalid_argument("h and steps must be above 0.");
   std::vector<double> after(state.data(), state.data() + state.size());
-  std::vector<double> load(whole.body->balls().size());
-  whole.body->advance(after.data(), action.data(), load.data(), h, steps, gravity, firm, single);
-  const std::size_t size = after.size(), balls = load.size();
-  return nb::make_tuple(to_numpy(std::move(after), {size}), to_numpy(std::move(load), {balls}));
+  whole.body->advance(after.data(), action.data(), h, steps, gravity,
+                      firm ? *firm : whole.body->solid().firm, single);
+  return to_numpy(std::move(after), {whole.state()});
 }
 
 }  // namespace
@@ -116,7 +115,7 @@ void bind_spatial(nb::module_& module) {
       .def("accelerations", &accelerations, nb::arg("position"), nb::arg("speed"),
            nb::arg("action"), nb::arg("gravity") = kGravity)
       .def("advance", &advance, nb::arg("state"), nb::arg("action"), nb::arg("h"),
-           nb::arg("steps") = 1, nb::arg("gravity") = kGravity, nb::arg("firmness") = Firmness{},
+           nb::arg("steps") = 1, nb::arg("gravity") = kGravity, nb::arg("firmness").none() = nb::none(),
            nb::arg("single") = false);
 }
 

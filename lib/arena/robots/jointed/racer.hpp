@@ -22,13 +22,12 @@ struct Course {
   double alive = 0;       ///< paid for each step without a fall
   double effort = 0;      ///< price of the sum of squared actions
   double lift = 0;        ///< paid for each metre of height
-  Firmness firm{};
 };
 
 /// Rows of a state: coordinates and speeds as MuJoCo has them (the root's place, its quaternion with w
 /// first, the angles of hinges; the root's velocity, its angular velocity along its own axes, the rates
-/// of hinges), then of each ball how far the ground holds it back (x, y, z), and its mean force across
-/// the ground in the last step.
+/// of hinges), then of each ball how far the ground holds it back (x, y, z), and its force across the
+/// ground in the last substep.
 struct Rows {
   int links, balls;
   int speed() const { return links + 6; }
@@ -56,12 +55,13 @@ void load_state(Body& body, const Rows& rows, F row) {
   for (int c = 0; c < rows.balls; ++c) {
     const int first = rows.stretch() + 3 * c;
     body.stretch[c] = {row(first), row(first + 1), row(first + 2)};
+    body.load[c] = row(rows.load() + c);
   }
 }
 
-/// The other way: write(row, lanes). `share`: 1 / substeps.
+/// The other way: write(row, lanes).
 template <class Body, class F>
-void store_state(Body& body, const Rows& rows, double share, F write) {
+void store_state(Body& body, const Rows& rows, F write) {
   using V = typename Body::V;
   write(0, body.place.x);
   write(1, body.place.y);
@@ -78,7 +78,7 @@ void store_state(Body& body, const Rows& rows, double share, F write) {
   for (int c = 0; c < rows.balls; ++c) {
     const V three[] = {body.stretch[c].x, body.stretch[c].y, body.stretch[c].z};
     for (int k = 0; k < 3; ++k) write(rows.stretch() + 3 * c + k, three[k]);
-    write(rows.load() + c, Body::number(share) * body.load[c]);
+    write(rows.load() + c, body.load[c]);
   }
 }
 
@@ -89,7 +89,7 @@ struct Racer : ProblemBase {
   using V = Lanes<float, kWidth>;
 
   explicit Racer(const Course& of) : course(&of), rows{of.solid->links, Balls(*of.solid).count} {
-    moving.read(*of.solid, of.firm);
+    moving.read(*of.solid, of.solid->firm);
   }
 
   static Info describe(const char* name, const Course& course) {
@@ -173,7 +173,7 @@ struct Racer : ProblemBase {
   void keep(int first, V real) {
     double kept[kWidth], after[kWidth];
     real.to(kept);
-    store_state(moving, rows, 1.0 / course->substeps, [&](int row, V values) {
+    store_state(moving, rows, [&](int row, V values) {
       values.to(after);
       for (int l = 0; l < kWidth; ++l) {
         double& old = state[row][first + l];

@@ -52,13 +52,15 @@ struct Solid {
   const Shape* shape;
   int links, shapes, motors = 0;
   double margin;  ///< added to the radius of what touches the ground
+  Firmness firm;
 
   template <std::size_t n, std::size_t s>
-  constexpr Solid(const char* name, const Link (&of)[n], const Shape (&shapes)[s], double margin)
-      : Solid(name, of, int(n), shapes, int(s), margin) {}
+  constexpr Solid(const char* name, const Link (&of)[n], const Shape (&shapes)[s],
+                  double margin = 0, const Firmness& firm = {})
+      : Solid(name, of, int(n), shapes, int(s), margin, firm) {}
   constexpr Solid(const char* name, const Link* of, int n, const Shape* shapes, int s,
-                  double margin)
-      : name(name), link(of), shape(shapes), links(n), shapes(s), margin(margin) {
+                  double margin, const Firmness& firm)
+      : name(name), link(of), shape(shapes), links(n), shapes(s), margin(margin), firm(firm) {
     for (int i = 0; i < n; ++i)
       if (of[i].motor >= motors) motors = of[i].motor + 1;
   }
@@ -71,7 +73,7 @@ struct Ball {
   double radius;
 };
 
-/// The balls of a body, each place once.
+/// The balls of a body, less those inside others.
 struct Balls {
   int count = 0;
   Ball ball[kMaxBalls];
@@ -80,20 +82,32 @@ struct Balls {
     for (int s = 0; s < solid.shapes; ++s) {
       const Shape& shape = solid.shape[s];
       const Place &p = shape.place, &h = shape.half;
-      add({shape.link, {p.x - h.x, p.y - h.y, p.z - h.z}, shape.radius + solid.margin});
-      add({shape.link, {p.x + h.x, p.y + h.y, p.z + h.z}, shape.radius + solid.margin});
+      add(solid, {shape.link, {p.x - h.x, p.y - h.y, p.z - h.z}, shape.radius + solid.margin});
+      add(solid, {shape.link, {p.x + h.x, p.y + h.y, p.z + h.z}, shape.radius + solid.margin});
     }
   }
 
  private:
-  static bool same(const Ball& a, const Ball& b) {
-    const double x = a.place.x - b.place.x, y = a.place.y - b.place.y, z = a.place.z - b.place.z,
-                 r = a.radius - b.radius;
-    return a.link == b.link && x * x + y * y + z * z + r * r < 1e-12;
+  static double square(const Place& p) { return p.x * p.x + p.y * p.y + p.z * p.z; }
+
+  static bool inside(const Ball& a, const Ball& b) {
+    const double more = b.radius - a.radius + 1e-9;
+    const Place &p = a.place, &q = b.place;
+    return a.link == b.link && more > 0 && square({p.x - q.x, p.y - q.y, p.z - q.z}) <= more * more;
   }
-  void add(const Ball& next) {
+
+  void add(const Solid& solid, Ball next) {
+    // a ball on the hinge belongs to the parent as well
+    while (next.link > 0 && square(next.place) < 1e-12) {
+      next.place = solid.link[next.link].place;
+      next.link = solid.link[next.link].parent;
+    }
     for (int i = 0; i < count; ++i)
-      if (same(ball[i], next)) return;
+      if (inside(next, ball[i])) return;
+    int kept = 0;
+    for (int i = 0; i < count; ++i)
+      if (!inside(ball[i], next)) ball[kept++] = ball[i];
+    count = kept;
     if (count < kMaxBalls) ball[count++] = next;
   }
 };

@@ -51,7 +51,7 @@ inline constexpr Shape kAntShapes[]{
   {7, {0.1, -0.1, 0}, {-0.1, 0.1, 0}, 0.08},
   {8, {0.2, -0.2, 0}, {-0.2, 0.2, 0}, 0.08},
 };
-inline constexpr Solid kAnt{"ant", kAntLinks, kAntShapes, 0.01};
+inline constexpr Solid kAnt{"ant", kAntLinks, kAntShapes, 0.01, {1, 20000, 400}};
 
 inline constexpr Link kHumanoidLinks[]{
   {"torso", -1, {0, 0, 0}, {0, 0, 0},
@@ -128,7 +128,7 @@ inline constexpr Shape kHumanoidShapes[]{
   {17, {0.09, -0.09, 0.09}, {-0.08, 0.08, -0.08}, 0.031},
   {17, {0.18, -0.18, 0.18}, {0, 0, 0}, 0.04},
 };
-inline constexpr Solid kHumanoid{"humanoid", kHumanoidLinks, kHumanoidShapes, 0.001};
+inline constexpr Solid kHumanoid{"humanoid", kHumanoidLinks, kHumanoidShapes, 0.001, {1, 100000, 2000}};
 
 inline constexpr Link kHumanoidStandupLinks[]{
   {"torso", -1, {0, 0, 0}, {0, 0, 0},
@@ -205,7 +205,7 @@ inline constexpr Shape kHumanoidStandupShapes[]{
   {17, {0.09, -0.09, 0.09}, {-0.08, 0.08, -0.08}, 0.031},
   {17, {0.18, -0.18, 0.18}, {0, 0, 0}, 0.04},
 };
-inline constexpr Solid kHumanoidStandup{"humanoidstandup", kHumanoidStandupLinks, kHumanoidStandupShapes, 0.001};
+inline constexpr Solid kHumanoidStandup{"humanoidstandup", kHumanoidStandupLinks, kHumanoidStandupShapes, 0.001, {1, 100000, 2000}};
 
 BOTSCHOOL_END
 // clang-format on

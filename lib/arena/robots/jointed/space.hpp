@@ -146,10 +146,10 @@ struct Space {
   Screw<V> speed;                       ///< of the root: turning (in the world's axes) and moving
   V angle[kMaxLinks], rate[kMaxLinks];  ///< of each link's hinge; the root's are not used
   Vec stretch[kMaxBalls];               ///< how far the ground holds a ball back along itself
+  V load[kMaxBalls];                    ///< the ground's force across itself in the last substep, N
 
   Screw<V> change;  ///< of the speeds in the last substep, halved
   V rate_change[kMaxLinks];
-  V load[kMaxBalls];  ///< sum over substeps of the ground's force across itself, N
 
   /// What is computed of a link.
   struct Part {
@@ -166,6 +166,14 @@ struct Space {
     Screw<V> acceleration;
   };
   Part part[kMaxLinks];
+
+  /// What is computed of a ball on the ground.
+  struct Contact {
+    bool touches;
+    V push, answer;
+    Vec normal, at;
+  };
+  Contact contact[kMaxBalls];
 
   static BOTSCHOOL_INLINE V number(double x) { return V(T(x)); }
   static BOTSCHOOL_INLINE Vec vector(const T* p) { return {V(p[0]), V(p[1]), V(p[2])}; }
@@ -186,7 +194,6 @@ struct Space {
   void begin() {
     change = {none(), none()};
     for (int i = 0; i < numbers.links; ++i) rate_change[i] = V(T(0));
-    for (int c = 0; c < numbers.balls; ++c) load[c] = V(T(0));
   }
 
   /// Moves the body for some substeps of h seconds; `action`: of each motor.
@@ -280,6 +287,7 @@ struct Space {
       unfold(i);
       rate_change[i] = V(half) * part[i].bend;
     }
+    weigh_balls();
     const Screw<V> middle = speed + change;
     const Screw<V>& acceleration = part[0].acceleration;
     change = V(half) * Screw<V>{acceleration.turn,
@@ -363,41 +371,60 @@ struct Space {
     p.force.turn.y -= g * h.x;
   }
 
-  /// Forces of the ground on all balls.
+  /// Forces of the ground on all balls. The ground pushes with a spring and a damper, and holds a ball
+  /// back along itself by another pair, by no more than Coulomb's friction for the push of the substep
+  /// before, or for what the push at least is now.
   void touch(T h) {
     const V zero(T(0));
     for (int c = 0; c < numbers.balls; ++c) {
       const auto& ball = numbers.ball[c];
       Part& p = part[ball.link];
+      Contact& touched = contact[c];
       const Vec centre = p.origin + p.turned.times(vector(ball.place));
       const V radius(ball.radius);
       const Piece3<V> below = terrain.under(place.x + centre.x, place.y + centre.y);
       const V depth = radius - (place.z + centre.z - below.height) * below.normal.z;
-      if (!any_positive(depth)) {
+      touched.touches = any_positive(depth);
+      if (!touched.touches) {
         stretch[c] = none();
+        load[c] = zero;
         continue;
       }
       const Vec& normal = below.normal;
       const Vec r = centre - radius * normal;
       const Vec sliding = p.now.move + cross(p.now.turn, r);
-      const V across = dot(normal, sliding);
+      // its change within the substep by the turning of the body alone
+      const Vec turning = V(h) * cross(p.now.turn, p.now.move + cross(p.now.turn, centre));
+      const V across = dot(normal, sliding), more = dot(normal, turning);
       const Vec along = sliding - across * normal;
-      V firm = V(h) * stiffness + damping;
-      V push = stiffness * depth - firm * across;
-      push = if_positive(depth, larger(push, zero), zero);
-      // a spring along the ground and a damper, as firm, but no more than Coulomb's friction
+      const V on = smaller(depth, stiffness * depth - damping * across);
+      const V firm = if_positive(on, V(h) * stiffness + damping, zero);
+      const V push = if_positive(on, stiffness * depth, zero) - firm * (across + more);
       const Vec held = stretch[c] + V(h) * along;
-      const Vec drag = stiffness * held + firm * along;
-      const V most = friction * push;
-      const V size = square_root(dot(drag, drag));
-      const V share = most / larger(larger(size, most), V(T(1e-9)));
-      firm = if_positive(push, firm, zero);
+      const Vec drag = stiffness * held + firm * (along + (turning - more * normal));
+      const V force_now = larger(load[c], smaller(stiffness * depth, push));
+      const V most = if_positive(on, friction * force_now, zero);
+      const V share = most / larger(larger(square_root(dot(drag, drag)), most), V(T(1e-9)));
       stretch[c] = share * held;
-      load[c] += push;
       const Vec force = push * normal - share * drag;
       p.force.move = p.force.move - force;
       p.force.turn = p.force.turn - cross(r, force);
       resist(p.inertia, r, normal, V(h) * firm, V(h) * share * firm);
+      touched.push = push;
+      touched.answer = V(h) * firm;
+      touched.normal = normal;
+      touched.at = r;
+    }
+  }
+
+  /// How much the ground has pushed each ball, by the accelerations.
+  void weigh_balls() {
+    for (int c = 0; c < numbers.balls; ++c) {
+      const Contact& touched = contact[c];
+      if (!touched.touches) continue;
+      const Screw<V>& a = part[numbers.ball[c].link].acceleration;
+      const V across = dot(touched.normal, a.move + cross(a.turn, touched.at));
+      load[c] = larger(touched.push - touched.answer * across, V(T(0)));
     }
   }
 
@@ -431,10 +458,13 @@ struct Space {
     V extra(link.armature + link.damping * h * T(0.5));
     if (link.motor >= 0) torque += V(link.torque) * strength * action[link.motor];
     if (link.limited) {
-      const V beyond = larger(angle[i] - V(link.high), zero) + smaller(angle[i] - V(link.low), zero);
-      // stops what goes on, and lets go what comes back
-      V firm = if_positive(beyond * rate[i], V(h * limit + stopping), V(h * limit));
-      firm = if_positive(beyond * beyond, firm, zero);
+      const V way = V(h) * rate[i];
+      const V above = angle[i] - V(link.high), below = angle[i] - V(link.low);
+      const V beyond = larger(above, zero) + smaller(below, zero);
+      V firm = if_positive(beyond * beyond, V(h * limit), zero);
+      // a damper stops what goes on, from the substep on that would pass the limit
+      const V passing = larger(smaller(above + way, way), smaller(-way, -(below + way)));
+      firm += if_positive(passing, V(stopping), zero);
       torque -= V(limit) * beyond + firm * rate[i];
       extra += V(h) * firm;
     }

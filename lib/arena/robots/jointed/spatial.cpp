@@ -9,14 +9,14 @@ namespace {
 constexpr Link kBallLinks[]{
     {"ball", -1, {}, {}, {}, -1, 2, {}, {0.008, 0.008, 0.008, 0, 0, 0}}};
 constexpr Shape kBallShapes[]{{0, {}, {}, 0.1}};
-constexpr Solid kBall{"ball", kBallLinks, kBallShapes, 0};
+constexpr Solid kBall{"ball", kBallLinks, kBallShapes};
 constexpr Link kBoxLinks[]{
     {"box", -1, {}, {}, {}, -1, 3, {}, {0.0125, 0.0425, 0.05, 0, 0, 0}}};
 constexpr Shape kBoxShapes[]{{0, {0.2, 0.1, 0}, {0, 0, 0.05}, 0},
                              {0, {0.2, -0.1, 0}, {0, 0, 0.05}, 0},
                              {0, {-0.2, 0.1, 0}, {0, 0, 0.05}, 0},
                              {0, {-0.2, -0.1, 0}, {0, 0, 0.05}, 0}};
-constexpr Solid kBox{"box", kBoxLinks, kBoxShapes, 0};
+constexpr Solid kBox{"box", kBoxLinks, kBoxShapes};
 
 class Looked final : public SpatialBody {
  public:
@@ -87,12 +87,12 @@ class Looked final : public SpatialBody {
     return result;
   }
 
-  void advance(double* state, const double* action, double* load, double h, int steps,
-               double gravity, const Firmness& firm, bool single) const override {
+  void advance(double* state, const double* action, double h, int steps, double gravity,
+               const Firmness& firm, bool single) const override {
     if (single)
-      run<float>(state, action, load, h, steps, gravity, firm);
+      run<float>(state, action, h, steps, gravity, firm);
     else
-      run<double>(state, action, load, h, steps, gravity, firm);
+      run<double>(state, action, h, steps, gravity, firm);
   }
 
  private:
@@ -101,7 +101,7 @@ class Looked final : public SpatialBody {
   /// At rest if `speed` is null.
   std::unique_ptr<Space<double, 1>> loaded(const double* position, const double* speed) const {
     auto body = std::make_unique<Space<double, 1>>();
-    body->read(solid_, Firmness{});
+    body->read(solid_, solid_.firm);
     load_state(*body, rows_, [&](int row) {
       if (row < rows_.speed()) return One(position[row]);
       return One(speed && row < rows_.stretch() ? speed[row - rows_.speed()] : 0.0);
@@ -111,7 +111,7 @@ class Looked final : public SpatialBody {
   }
 
   template <class T>
-  void run(double* state, const double* action, double* load, double h, int steps, double gravity,
+  void run(double* state, const double* action, double h, int steps, double gravity,
            const Firmness& firm) const {
     using V = Lanes<T, 1>;
     const auto body = std::make_unique<Space<T, 1>>();
@@ -121,11 +121,8 @@ class Looked final : public SpatialBody {
     V motor[kMaxLinks];
     for (int i = 0; i < solid_.motors; ++i) motor[i] = T(action[i]);
     body->run(motor, steps, T(h));
-    store_state(*body, rows_, 1.0 / steps, [&](int row, V value) {
-      if (row >= rows_.load())
-        load[row - rows_.load()] = value[0];
-      else
-        state[row] = value[0] + (row < 2 ? state[row] : 0.0);
+    store_state(*body, rows_, [&](int row, V value) {
+      state[row] = value[0] + (row < 2 ? state[row] : 0.0);
     });
   }
 

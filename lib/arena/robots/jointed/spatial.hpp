@@ -9,8 +9,8 @@
 
 namespace botschool {
 
-/// A state is as in racer.hpp, less the loads: coordinates as MuJoCo has them (root's place, quaternion,
-/// angles of hinges), speeds likewise, and how far the ground holds each ball back.
+/// A state is as in racer.hpp: coordinates as MuJoCo has them (root's place, quaternion, angles of
+/// hinges), speeds likewise, how far the ground holds each ball back, and its force across the ground.
 class SpatialBody {
  public:
   virtual ~SpatialBody() = default;
@@ -27,10 +27,9 @@ class SpatialBody {
   /// In the air, with the torques of motors, dampers and springs, and without limits of hinges.
   virtual std::vector<double> accelerations(const double* position, const double* speed,
                                             const double* action, double gravity) const = 0;
-  /// `steps` substeps of h seconds. `state` is updated; `load` gets the mean force of each ball in N.
-  /// In single precision on request, as in evolution.
-  virtual void advance(double* state, const double* action, double* load, double h, int steps,
-                       double gravity, const Firmness& firm, bool single) const = 0;
+  /// `steps` substeps of h seconds; updates `state`. In single precision on request, as in evolution.
+  virtual void advance(double* state, const double* action, double h, int steps, double gravity,
+                       const Firmness& firm, bool single) const = 0;
 };
 
 /// All bodies, those for tests included.
