@@ -10,11 +10,15 @@ import numpy as np
 
 TARGET = Path(__file__).parents[1] / "lib" / "arena" / "robots" / "jointed" / "solids.hpp"
 ASSETS = Path(gymnasium.__file__).parent / "envs" / "mujoco" / "assets"
+LEGS = [(f"right_{a}", f"left_{b}") for a, b in (
+    ("thigh1", "thigh1"), ("shin1", "shin1"), ("foot", "foot"), ("thigh1", "shin1"),
+    ("shin1", "thigh1"), ("foot", "shin1"), ("shin1", "foot"))]  # fmt: skip
+"""Shapes of the humanoid that touch each other."""
 BODIES = {
-    # file: name, friction, stiffness and damping of the ground
-    "ant": ("Ant", "{1, 20000, 400}"),
-    "humanoid": ("Humanoid", "{1, 100000, 2000}"),
-    "humanoidstandup": ("HumanoidStandup", "{1, 100000, 2000}"),
+    # file: name, friction, stiffness and damping of the ground, pairs of shapes
+    "ant": ("Ant", "{1, 20000, 400}", ()),
+    "humanoid": ("Humanoid", "{1, 100000, 2000}", LEGS),
+    "humanoidstandup": ("HumanoidStandup", "{1, 100000, 2000}", LEGS),
 }
 HEAD = """// Tables of bodies in space: numbers of Gymnasium's models for MuJoCo, written by
 // tools/spatial_tables.py. solid.hpp says what they mean.
@@ -23,7 +27,7 @@ HEAD = """// Tables of bodies in space: numbers of Gymnasium's models for MuJoCo
 #include "solid.hpp"
 
 // clang-format off
-BOTSCHOOL_BEGIN
+namespace botschool {
 """
 
 
@@ -35,7 +39,7 @@ def text(values) -> str:
     return "{" + ", ".join(map(number, np.ravel(values))) + "}"
 
 
-def table(file: str, name: str, firmness: str) -> str:
+def table(file: str, name: str, firmness: str, touching) -> str:
     """Return the C++ text of a model's links and shapes."""
     m = mujoco.MjModel.from_xml_path(str(ASSETS / f"{file}.xml"))
     d = mujoco.MjData(m)
@@ -75,18 +79,27 @@ def table(file: str, name: str, firmness: str) -> str:
         lines.append(f"   {text(hinge)}, {actuator},")
         lines.append(f"   {number(mass)}, {text(centre)}, {text(six)}}},")
     lines += ["};", f"inline constexpr Shape k{name}Shapes[]{{"]
+    shapes = []
     for g in range(m.ngeom):
         link = link_of[int(m.geom_bodyid[g])]
         if link < 0:
             continue
+        shapes.append(label(mujoco.mjtObj.mjOBJ_GEOM, g))
         capsule = m.geom_type[g] == mujoco.mjtGeom.mjGEOM_CAPSULE
         half = d.geom_xmat[g].reshape(3, 3)[:, 2] * (m.geom_size[g, 1] if capsule else 0)
         at = d.geom_xpos[g] - origin[link]
         lines.append(f"  {{{link}, {text(at)}, {text(half)}, {number(m.geom_size[g, 0])}}},")
-    lines += ["};", f'inline constexpr Solid k{name}{{"{file}", k{name}Links, k{name}Shapes, '
-              f"{number(m.geom_margin[1])}, {firmness}}};"]  # fmt: skip
+    lines.append("};")
+    if touching:
+        pairs = ", ".join(f"{{{shapes.index(a)}, {shapes.index(b)}}}" for a, b in touching)
+        lines.append(f"inline constexpr Pair k{name}Pairs[]{{{pairs}}};")
+    lines += [
+        f'inline constexpr Solid k{name}{{"{file}", k{name}Links, k{name}Shapes,',
+        f"  {f'k{name}Pairs' if touching else 'nullptr'}, {len(rows)}, {len(shapes)},"
+        f" {len(touching)}, {m.nu}, {number(m.geom_margin[1])}, {firmness}}};",
+    ]
     return "\n".join(lines) + "\n"
 
 
 if __name__ == "__main__":
-    TARGET.write_text(HEAD + "".join(table(file, *each) for file, each in BODIES.items()) + "\nBOTSCHOOL_END\n// clang-format on\n")
+    TARGET.write_text(HEAD + "".join(table(file, *each) for file, each in BODIES.items()) + "\n}  // namespace botschool\n// clang-format on\n")

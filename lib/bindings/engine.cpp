@@ -3,6 +3,7 @@
 #include <nanobind/stl/unique_ptr.h>
 
 #include "arena.hpp"
+#include "spatial.hpp"
 
 namespace botschool {
 namespace {
@@ -47,9 +48,15 @@ nb::dict to_dict(const Info& info) {
   return d;
 }
 
-Setting setting_of(int limit, const Options* options) {
+/// options: None, or of either kind.
+Setting setting_of(int limit, nb::handle options) {
   if (limit < 1) throw std::invalid_argument("an episode needs at least one step.");
-  return {limit, options};
+  Setting setting{limit};
+  if (nb::isinstance<Race>(options))
+    setting.space = &nb::cast<const Race&>(options).options;
+  else if (!options.is_none())
+    setting.arena = &nb::cast<const Options&>(options);
+  return setting;
 }
 
 /// `given` genotypes of one network each (one a robot), or genotypes that hold all networks.
@@ -70,7 +77,7 @@ nb::tuple evaluate(const Engine& engine, Matrix<const double> genotypes,
                    Matrix<const std::int32_t> candidates, Vector<const std::uint64_t> seeds,
                    Vector<const std::uint32_t> episodes,
                    std::optional<Vector<const std::uint8_t>> collect, int limit, int threads,
-                   bool heterogeneous, const Options* options) {
+                   bool heterogeneous, nb::handle options) {
   const std::size_t rows = candidates.shape(0), count = candidates.shape(1);
   const std::size_t robots = engine.info().robots;
   const int inputs = engine.layout().spec.inputs;
@@ -145,7 +152,7 @@ struct Tape final : Recorder {
 /// One genotype for all robots, or a row for each.
 nb::dict record(const Engine& engine, Matrix<const double> genotypes,
                 std::optional<Vector<const double>> normalisation, std::uint64_t seed,
-                std::uint32_t episode, int limit, bool heterogeneous, const Options* options) {
+                std::uint32_t episode, int limit, bool heterogeneous, nb::handle options) {
   const std::size_t rows = genotypes.shape(0), robots = engine.info().robots;
   const std::size_t offset = offset_of(engine, heterogeneous, rows);
   if (rows != 1 && rows != robots)
@@ -233,8 +240,8 @@ void bind_engine(nb::module_& module) {
       .def(
           "__init__",
           [](Engine* engine, const std::string& problem, const Spec& spec,
-             const std::string& instruction_set, const Options* options) {
-            new (engine) Engine(problem, spec, instruction_set, options);
+             const std::string& instruction_set, nb::handle options) {
+            new (engine) Engine(problem, spec, instruction_set, setting_of(1, options));
           },
           nb::arg("problem"), nb::arg("spec"), nb::arg("instruction_set") = "",
           nb::arg("options").none() = nb::none())
@@ -250,7 +257,7 @@ void bind_engine(nb::module_& module) {
   nb::class_<Stepper>(module, "Stepper")
       .def(
           "set",
-          [](Stepper& s, int limit, const Options* options) { s.set(setting_of(limit, options)); },
+          [](Stepper& s, int limit, nb::handle options) { s.set(setting_of(limit, options)); },
           nb::arg("limit"), nb::arg("options").none() = nb::none(), nb::keep_alive<1, 3>())
       .def("set_body",
            [](Stepper& s, Vector<const double> parameters) {

@@ -1,8 +1,6 @@
+#include "spatial.hpp"
+
 #include "arena/robots/jointed/spatial.hpp"
-
-#include <nanobind/stl/string.h>
-
-#include "bindings.hpp"
 
 namespace botschool {
 namespace {
@@ -53,6 +51,11 @@ struct Whole {
       if (each->solid().name == name) body = std::move(each);
     if (!body) throw std::invalid_argument("there is no body in space '" + name + "'.");
   }
+  /// A declared one.
+  explicit Whole(const Race& race) {
+    if (!race.options.course) throw std::invalid_argument("this race declares no body.");
+    body = spatial_body(race.solid);
+  }
   std::unique_ptr<SpatialBody> body;
   std::size_t coordinates() const { return body->coordinates(); }
   std::size_t speeds() const { return body->speeds(); }
@@ -81,13 +84,16 @@ nb::object accelerations(const Whole& whole, Vector<const double> position,
 }
 
 nb::object advance(const Whole& whole, Vector<const double> state, Vector<const double> action,
-                  double h, int steps, double gravity, const Firmness* firm, bool single) {
+                  double h, int steps, double gravity, const Firmness* firm,
+                  const std::vector<double>& ground, bool single) {
   expect_size(state, whole.state(), "the state");
   expect_size(action, whole.body->solid().motors, "the action");
+  if (ground.size() != 3) throw std::invalid_argument("the ground has slope, step and bumps.");
   if (steps < 1 || !(h > 0)) throw std::invalid_argument("h and steps must be above 0.");
   std::vector<double> after(state.data(), state.data() + state.size());
   whole.body->advance(after.data(), action.data(), h, steps, gravity,
-                      firm ? *firm : whole.body->solid().firm, single);
+                      firm ? *firm : whole.body->solid().firm, {ground[0], ground[1], ground[2]},
+                      single);
   return to_numpy(std::move(after), {whole.state()});
 }
 
@@ -104,8 +110,17 @@ void bind_spatial(nb::module_& module) {
           nb::arg("friction") = Firmness{}.friction, nb::arg("stiffness") = Firmness{}.stiffness,
           nb::arg("damping") = Firmness{}.damping, nb::arg("limit") = Firmness{}.limit,
           nb::arg("stopping") = Firmness{}.stopping);
+  nb::class_<Race>(module, "Race")
+      .def(nb::init<std::vector<double>, const std::vector<std::string>&>(),
+           nb::arg("ground") = std::vector<double>(3),
+           nb::arg("vary") = std::vector<std::string>())
+      .def("declare", &Race::declare, nb::arg("names"), nb::arg("links"), nb::arg("shapes"),
+           nb::arg("firmness"), nb::kw_only(), nb::arg("seconds"), nb::arg("substeps"),
+           nb::arg("height"), nb::arg("noise"), nb::arg("low"), nb::arg("high"), nb::arg("alive"),
+           nb::arg("effort"));
   nb::class_<Whole>(module, "SpatialBody")
       .def(nb::init<const std::string&>(), nb::arg("name"))
+      .def(nb::init<const Race&>(), nb::arg("race"), nb::keep_alive<1, 2>())
       .def_prop_ro("coordinates", &Whole::coordinates)
       .def_prop_ro("speeds", &Whole::speeds)
       .def_prop_ro("size", &Whole::state)
@@ -116,6 +131,7 @@ void bind_spatial(nb::module_& module) {
            nb::arg("action"), nb::arg("gravity") = kGravity)
       .def("advance", &advance, nb::arg("state"), nb::arg("action"), nb::arg("h"),
            nb::arg("steps") = 1, nb::arg("gravity") = kGravity, nb::arg("firmness").none() = nb::none(),
+           nb::arg("ground") = std::vector<double>(3),
            nb::arg("single") = false);
 }
 

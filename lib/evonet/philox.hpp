@@ -18,7 +18,8 @@ enum class Stream : std::uint32_t {
   weights = 3,
   event = 4,
   explore = 5,
-  shuffle = 6
+  shuffle = 6,
+  vary = 7
 };
 
 struct Block {

@@ -76,10 +76,10 @@ std::vector<Info> native_problems() {
 }
 
 Engine::Engine(const std::string& problem, const Spec& spec, const std::string& instruction_set,
-               const ArenaOptions* arena)
+               const Setting& setting)
     : layout_(make_layout(spec)),
       kernel_(find_kernel(problem, instruction_set)),
-      info_(kernel_->given({kernel_->info.limit, arena})) {
+      info_(kernel_->given(setting)) {
   const Info& info = info_;
   if (spec.inputs != info.observations || spec.outputs != info.outputs)
     throw std::invalid_argument(std::string(info.name) + " needs a network of " +

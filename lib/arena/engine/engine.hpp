@@ -24,11 +24,10 @@ const Kernel* find_kernel(const std::string& problem, const std::string& instruc
 /// One native problem with one network layout.
 class Engine {
  public:
-  /// instruction_set: one of instruction_sets(), or "" for the best. arena: the user's choices
-  /// about the arena, or null; the choices of all jobs must have the same robots and observations.
-  /// Throws std::invalid_argument.
+  /// instruction_set: one of instruction_sets(), or "" for the best. setting: its user's
+  /// choices; those of all jobs must have the same robots and observations. Throws std::invalid_argument.
   Engine(const std::string& problem, const Spec& spec, const std::string& instruction_set,
-         const ArenaOptions* arena = nullptr);
+         const Setting& setting = {1});
 
   const Layout& layout() const { return layout_; }
   const Info& info() const { return info_; }

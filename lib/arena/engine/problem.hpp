@@ -22,6 +22,7 @@ namespace botschool {
 
 struct Plan;          // an arena with wheeled robots: robots/plan.hpp
 struct ArenaOptions;  // what its user may choose
+struct SpaceOptions;  // about a race in space: robots/jointed/solid.hpp
 
 /// Robots in a problem, one network each.
 constexpr int kMaxRobots = 4;
@@ -49,6 +50,7 @@ struct Info {
 struct Setting {
   int limit;                            ///< longest episode, in steps
   const ArenaOptions* arena = nullptr;  ///< or null: the problem's own
+  const SpaceOptions* space = nullptr;
 };
 
 /// A row of an object in an arena: x, y, x2, y2, radius.

@@ -18,10 +18,11 @@ class Rollout {
   using Memory = BrainMemory<Real, L>;
 
   static std::size_t workspace(const Entry& entry, const Layout& layout, const Setting& setting) {
-    const int robots = entry.given(setting).robots;
+    const Info given = entry.given(setting);
+    const int robots = given.robots;
     return made_by(entry).size + robots * brain_bytes(layout) + observation_bytes(layout, robots) +
-           moments_bytes(layout) + action_bytes(entry, robots) +
-           (record_bytes(entry, layout, robots) + 63) / 64 * 64 +
+           moments_bytes(layout) + action_bytes(given) +
+           (record_bytes(entry, given, layout) + 63) / 64 * 64 +
            half_bytes(entry, layout, setting);
   }
 
@@ -64,18 +65,18 @@ class Rollout {
   }
   /// Actuators of a robot.
   static int actuators(const Info& info) { return info.discrete ? 1 : info.outputs; }
-  static std::size_t action_bytes(const Entry& entry, int robots) {
-    return robots * actuators(entry.info) * L * sizeof(double);
+  static std::size_t action_bytes(const Info& info) {
+    return info.robots * actuators(info) * L * sizeof(double);
   }
   /// Observations, actions and state of one lane.
-  static std::size_t record_bytes(const Entry& entry, const Layout& layout, int robots) {
-    return (robots * (layout.spec.inputs + actuators(entry.info)) + entry.states) * sizeof(double);
+  static std::size_t record_bytes(const Entry& entry, const Info& info, const Layout& layout) {
+    return (info.robots * (layout.spec.inputs + actuators(info)) + entry.states) * sizeof(double);
   }
 
   Rollout(const Entry& entry, const Layout& layout, const Jobs& jobs, Queue& queue,
           Recorder* recorder, unsigned char* bytes)
       : entry_(entry),
-        robots_(entry.given(jobs.setting).robots),
+        given_(entry.given(jobs.setting)),
         layout_(layout),
         jobs_(jobs),
         queue_(queue),
@@ -96,7 +97,7 @@ class Rollout {
     action_ = moments_ + 2 * layout.spec.inputs * L;
     record_ = action_ + robots_ * actions_ * L;
     half_ = reinterpret_cast<unsigned char*>(record_) +
-            (record_bytes(entry, layout, robots_) + 63) / 64 * 64;
+            (record_bytes(entry, given_, layout) + 63) / 64 * 64;
   }
 
   void run() {
@@ -302,8 +303,9 @@ class Rollout {
   }
 
   const Entry& entry_;
-  const int robots_;
-  const int actions_ = actuators(entry_.info);
+  const Info given_;
+  const int robots_ = given_.robots;
+  const int actions_ = actuators(given_);
 
   const Layout& layout_;
   const Jobs& jobs_;

@@ -66,6 +66,13 @@ struct SpatialStandup : Racer<L> {
   static Info info() { return SpatialStandup::describe("SpatialHumanoidStandup-v0", kStandupCourse); }
 };
 
+/// A body that its user declares; the ant where nothing is declared.
+template <int L>
+struct SpatialBodyRace : Racer<L> {
+  SpatialBodyRace() : Racer<L>(kAntCourse5) {}
+  static Info info() { return SpatialBodyRace::describe("SpatialBody-v0", kAntCourse5); }
+};
+
 BOTSCHOOL_END
 
 BOTSCHOOL_PROBLEM(SpatialAnt0)
@@ -73,3 +80,4 @@ BOTSCHOOL_PROBLEM(SpatialAnt5)
 BOTSCHOOL_PROBLEM(SpatialHumanoid0)
 BOTSCHOOL_PROBLEM(SpatialHumanoid5)
 BOTSCHOOL_PROBLEM(SpatialStandup)
+BOTSCHOOL_PROBLEM(SpatialBodyRace)

@@ -31,6 +31,7 @@ struct Lanes {
     for (int l = 0; l < W; ++l) data[l] = x;
 #endif
   }
+  static BOTSCHOOL_INLINE Lanes number(double x) { return Lanes(static_cast<T>(x)); }
   /// From W numbers in memory, and back.
   template <class From>
   static BOTSCHOOL_INLINE Lanes from(const From* values) {

@@ -4,25 +4,9 @@
 
 #include "solids.hpp"
 #include "space.hpp"
+#include "varied.hpp"
 
 BOTSCHOOL_BEGIN
-
-/// The reward of a body in space, and the ends of its episode.
-struct Course {
-  const Solid* solid;
-  double seconds;         ///< of a step
-  int substeps;           ///< in a step
-  double height;          ///< of the root's origin at the start
-  double noise;           ///< start: coordinates are uniform within +-noise of the rest
-  bool gaussian;          ///< whether speeds are Gaussian, with sd noise, or uniform, too
-  double low, high;       ///< height of the root, beyond which an episode ends
-  double range = 1;       ///< largest action
-  double ahead = 1;       ///< paid for each m/s
-  bool centre = false;    ///< of the centre of mass, or of the root
-  double alive = 0;       ///< paid for each step without a fall
-  double effort = 0;      ///< price of the sum of squared actions
-  double lift = 0;        ///< paid for each metre of height
-};
 
 /// Rows of a state: coordinates and speeds as MuJoCo has them (the root's place, its quaternion with w
 /// first, the angles of hinges; the root's velocity, its angular velocity along its own axes, the rates
@@ -88,9 +72,7 @@ struct Racer : ProblemBase {
   using Moving = Space<float, kWidth>;
   using V = Lanes<float, kWidth>;
 
-  explicit Racer(const Course& of) : course(&of), rows{of.solid->links, Balls(*of.solid).count} {
-    moving.read(*of.solid, of.solid->firm);
-  }
+  explicit Racer(const Course& of) : own(&of) { set({}); }
 
   static Info describe(const char* name, const Course& course) {
     const Solid& solid = *course.solid;
@@ -107,15 +89,34 @@ struct Racer : ProblemBase {
     return info;
   }
 
+  static Info given(const Info& info, const Setting& setting) {
+    const bool declared = setting.space && setting.space->course;
+    return declared ? describe(info.name, *setting.space->course) : info;
+  }
+
+  void set(const Setting& setting) {
+    const SpaceOptions options = setting.space ? *setting.space : SpaceOptions{};
+    course = options.course ? options.course : own;
+    rows = {course->solid->links, Balls(*course->solid).count};
+    moving.read(*course->solid, course->solid->firm);
+    ground = options.ground;
+    varied.vary = options.vary;
+  }
+
   double state[kMaxRows][L];
-  const Course* course;
+  const Course *own, *course;
   Rows rows;
+  Ground ground;
+  double phase[kPhases][L];  ///< of the ground's bumps
+  Varied<L> varied;
 
   /// The coordinates but x and y, and the speeds.
   template <class T>
   void observe(T* BOTSCHOOL_RESTRICT out) const {
     for (int k = 2; k < rows.stretch(); ++k)
-      for (int l = 0; l < L; ++l) out[(k - 2) * L + l] = static_cast<T>(state[k][l]);
+      for (int l = 0; l < L; ++l)
+        out[(k - 2) * L + l] =
+            static_cast<T>(state[k][l] + varied.noise(l, k, k < rows.speed() ? 0.02 : 0.2));
   }
 
   void start(int lane, Random& random) {
@@ -135,16 +136,21 @@ struct Racer : ProblemBase {
       if (hinge.low < hinge.high)
         state[6 + i][lane] = limited(state[6 + i][lane], hinge.low, hinge.high);
     }
+    state[2][lane] += ground.bumps;
+    for (auto& row : phase) row[lane] = random.uniform(-kPi, kPi);
+    varied.start(lane, random.key());
   }
 
   void step(const double* action, double* reward, std::int64_t* ended) {
     for (int first = 0; first < L; first += kWidth) {
-      load_state(moving, rows, [&](int row) { return V::from(&state[row][first]); });
+      load(first);
       V motor[kMaxLinks], effort = V(0.0f);
       for (int i = 0; i < course->solid->motors; ++i) {
         double within[kWidth];
-        for (int l = 0; l < kWidth; ++l)
-          within[l] = limited(action[i * L + first + l], -course->range, course->range);
+        for (int l = 0; l < kWidth; ++l) {
+          const double given = varied.delayed(first + l, i, action[i * L + first + l]);
+          within[l] = limited(given, -course->range, course->range);
+        }
         motor[i] = V::from(within);
         effort += motor[i] * motor[i];
       }
@@ -164,10 +170,28 @@ struct Racer : ProblemBase {
       for (int l = 0; l < kWidth; ++l) ended[first + l] = !(goes[l] > 0);
       keep(first, real);
     }
+    varied.next();
   }
 
  private:
   static V number(double x) { return V(float(x)); }
+
+  void load(int first) {
+    load_state(moving, rows, [&](int row) { return V::from(&state[row][first]); });
+    auto& terrain = moving.terrain;
+    terrain.ground = ground;
+    terrain.x = V::from(&state[0][first]);
+    terrain.y = V::from(&state[1][first]);
+    for (int k = 0; k < kPhases; ++k) terrain.phase[k] = V::from(&phase[k][first]);
+    if (!varied.any()) return;
+    const Firmness& firm = course->solid->firm;
+    const auto share = [&](int kind) { return V::from(&varied.share[kind][first]); };
+    moving.lightness = V(1.0f) / share(kMass);
+    moving.strength = share(kMotors);
+    moving.friction = number(firm.friction) * share(kFriction);
+    moving.stiffness = number(firm.stiffness) * share(kFirmness) * moving.lightness;
+    moving.damping = number(firm.damping) * share(kFirmness) * moving.lightness;
+  }
 
   /// Writes the changes, except in lanes whose numbers are not `real`.
   void keep(int first, V real) {

@@ -6,14 +6,12 @@
 // hinges.
 #pragma once
 
-#include <cstddef>
-
 #include "table.hpp"
 
-BOTSCHOOL_BEGIN
+namespace botschool {
 
 /// The most that a body has.
-constexpr int kMaxLinks = 32, kMaxBalls = 48;
+constexpr int kMaxLinks = 32, kMaxBalls = 48, kMaxPairs = 16;
 
 struct Place {
   double x, y, z;
@@ -38,6 +36,11 @@ struct Shape {
   double radius;
 };
 
+/// Numbers of two shapes that touch each other.
+struct Pair {
+  int one, other;
+};
+
 /// How ground and hinges answer: docs/specification.md, "Bodies in space".
 struct Firmness {
   double friction = 1;                    ///< Coulomb's coefficient
@@ -46,25 +49,55 @@ struct Firmness {
   double limit = 10000, stopping = 1000;  ///< beyond a hinge's limit: N m/rad, N m s/rad
 };
 
+/// A table, and how many rows its parts have.
 struct Solid {
   const char* name;
   const Link* link;
   const Shape* shape;
-  int links, shapes, motors = 0;
+  const Pair* pair;
+  int links, shapes, pairs, motors;
   double margin;  ///< added to the radius of what touches the ground
   Firmness firm;
-
-  template <std::size_t n, std::size_t s>
-  constexpr Solid(const char* name, const Link (&of)[n], const Shape (&shapes)[s],
-                  double margin = 0, const Firmness& firm = {})
-      : Solid(name, of, int(n), shapes, int(s), margin, firm) {}
-  constexpr Solid(const char* name, const Link* of, int n, const Shape* shapes, int s,
-                  double margin, const Firmness& firm)
-      : name(name), link(of), shape(shapes), links(n), shapes(s), margin(margin), firm(firm) {
-    for (int i = 0; i < n; ++i)
-      if (of[i].motor >= motors) motors = of[i].motor + 1;
-  }
 };
+
+/// The reward of a body in space, and the ends of its episode.
+struct Course {
+  const Solid* solid;
+  double seconds;       ///< of a step
+  int substeps;         ///< in a step
+  double height;        ///< of the root's origin at the start
+  double noise;         ///< start: coordinates are uniform within +-noise of the rest
+  bool gaussian;        ///< whether speeds are Gaussian, with sd noise, or uniform, too
+  double low, high;     ///< height of the root, beyond which an episode ends
+  double range = 1;     ///< largest action
+  double ahead = 1;     ///< paid for each m/s
+  bool centre = false;  ///< of the centre of mass, or of the root
+  double alive = 0;     ///< paid for each step without a fall
+  double effort = 0;    ///< price of the sum of squared actions
+  double lift = 0;      ///< paid for each metre of height
+};
+
+/// The shape of the ground: it rises by `slope` with each metre ahead, by `step` (m) at x = 2, and has
+/// bumps up to this height, in each episode others.
+struct Ground {
+  double slope = 0, step = 0, bumps = 0;
+};
+
+/// What differs from episode to episode: docs/specification.md, "Bodies in space".
+struct Vary {
+  bool ground = false, mass = false, motors = false, delay = false, noise = false;
+};
+
+/// What the user may choose about a race in space.
+struct SpaceOptions {
+  const Course* course = nullptr;  ///< of a declared body, or null: the problem's own
+  Ground ground;
+  Vary vary;
+};
+
+}  // namespace botschool
+
+BOTSCHOOL_BEGIN
 
 /// A ball at an end of a shape, which touches the ground.
 struct Ball {

@@ -5,7 +5,7 @@
 #include "solid.hpp"
 
 // clang-format off
-BOTSCHOOL_BEGIN
+namespace botschool {
 
 inline constexpr Link kAntLinks[]{
   {"torso", -1, {0, 0, 0}, {0, 0, 0},
@@ -51,7 +51,8 @@ inline constexpr Shape kAntShapes[]{
   {7, {0.1, -0.1, 0}, {-0.1, 0.1, 0}, 0.08},
   {8, {0.2, -0.2, 0}, {-0.2, 0.2, 0}, 0.08},
 };
-inline constexpr Solid kAnt{"ant", kAntLinks, kAntShapes, 0.01, {1, 20000, 400}};
+inline constexpr Solid kAnt{"ant", kAntLinks, kAntShapes,
+  nullptr, 9, 13, 0, 8, 0.01, {1, 20000, 400}};
 
 inline constexpr Link kHumanoidLinks[]{
   {"torso", -1, {0, 0, 0}, {0, 0, 0},
@@ -128,7 +129,9 @@ inline constexpr Shape kHumanoidShapes[]{
   {17, {0.09, -0.09, 0.09}, {-0.08, 0.08, -0.08}, 0.031},
   {17, {0.18, -0.18, 0.18}, {0, 0, 0}, 0.04},
 };
-inline constexpr Solid kHumanoid{"humanoid", kHumanoidLinks, kHumanoidShapes, 0.001, {1, 100000, 2000}};
+inline constexpr Pair kHumanoidPairs[]{{5, 8}, {6, 9}, {7, 10}, {5, 9}, {6, 8}, {7, 9}, {6, 10}};
+inline constexpr Solid kHumanoid{"humanoid", kHumanoidLinks, kHumanoidShapes,
+  kHumanoidPairs, 18, 17, 7, 17, 0.001, {1, 100000, 2000}};
 
 inline constexpr Link kHumanoidStandupLinks[]{
   {"torso", -1, {0, 0, 0}, {0, 0, 0},
@@ -205,7 +208,9 @@ inline constexpr Shape kHumanoidStandupShapes[]{
   {17, {0.09, -0.09, 0.09}, {-0.08, 0.08, -0.08}, 0.031},
   {17, {0.18, -0.18, 0.18}, {0, 0, 0}, 0.04},
 };
-inline constexpr Solid kHumanoidStandup{"humanoidstandup", kHumanoidStandupLinks, kHumanoidStandupShapes, 0.001, {1, 100000, 2000}};
+inline constexpr Pair kHumanoidStandupPairs[]{{5, 8}, {6, 9}, {7, 10}, {5, 9}, {6, 8}, {7, 9}, {6, 10}};
+inline constexpr Solid kHumanoidStandup{"humanoidstandup", kHumanoidStandupLinks, kHumanoidStandupShapes,
+  kHumanoidStandupPairs, 18, 17, 7, 17, 0.001, {1, 100000, 2000}};
 
-BOTSCHOOL_END
+}  // namespace botschool
 // clang-format on

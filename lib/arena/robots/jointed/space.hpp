@@ -77,9 +77,14 @@ struct Numbers3 {
     int link;
     T place[3], radius;
   };
-  int links, balls;
+  struct Meeting {
+    int link[2];
+    T place[2][3], half[2][3], radius;  ///< radius: of both together
+  };
+  int links, balls, pairs;
   One link[kMaxLinks];
   Touching ball[kMaxBalls];
+  Meeting pair[kMaxPairs];
 
   void read(const Solid& solid) {
     links = solid.links;
@@ -117,6 +122,16 @@ struct Numbers3 {
       copy(ball[c].place, from.ball[c].place);
       ball[c].radius = T(from.ball[c].radius);
     }
+    pairs = solid.pairs;
+    for (int c = 0; c < pairs; ++c) {
+      const Shape* both[] = {&solid.shape[solid.pair[c].one], &solid.shape[solid.pair[c].other]};
+      for (int k = 0; k < 2; ++k) {
+        pair[c].link[k] = both[k]->link;
+        copy(pair[c].place[k], both[k]->place);
+        copy(pair[c].half[k], both[k]->half);
+      }
+      pair[c].radius = T(both[0]->radius + both[1]->radius);
+    }
   }
 
  private:
@@ -138,7 +153,9 @@ struct Space {
 
   // the ground, and what may differ from lane to lane
   Terrain<V> terrain;
-  V friction, stiffness, damping, strength;  ///< strength: of motors, 1 for the table's
+  V friction, stiffness, damping;
+  V strength;   ///< of motors, 1 for the table's
+  V lightness;  ///< 1 / (mass of everything / the table's)
 
   // the state
   Vec place;                            ///< of the root's origin
@@ -175,7 +192,6 @@ struct Space {
   };
   Contact contact[kMaxBalls];
 
-  static BOTSCHOOL_INLINE V number(double x) { return V(T(x)); }
   static BOTSCHOOL_INLINE Vec vector(const T* p) { return {V(p[0]), V(p[1]), V(p[2])}; }
   static BOTSCHOOL_INLINE Vec none() { return {V(T(0)), V(T(0)), V(T(0))}; }
 
@@ -186,7 +202,7 @@ struct Space {
     friction = V(T(firm.friction));
     stiffness = V(T(firm.stiffness));
     damping = V(T(firm.damping));
-    strength = V(T(1));
+    strength = lightness = V(T(1));
     terrain = Terrain<V>();
   }
 
@@ -280,6 +296,7 @@ struct Space {
       weigh(i);
     }
     touch(h);
+    for (int c = 0; c < numbers.pairs; ++c) meet(numbers.pair[c], h);
     for (int i = numbers.links - 1; i > 0; --i) fold(i, action, h);
     solve();
     const T half = h * T(0.5);
@@ -428,6 +445,43 @@ struct Space {
     }
   }
 
+  /// Two capsules push each other apart where they are nearest, without friction.
+  void meet(const typename Numbers3<T>::Meeting& pair, T h) {
+    const V zero(T(0)), one(T(1));
+    Part* p[2];
+    Vec middle[2], half[2];
+    for (int k = 0; k < 2; ++k) {
+      p[k] = &part[pair.link[k]];
+      middle[k] = p[k]->origin + p[k]->turned.times(vector(pair.place[k]));
+      half[k] = p[k]->turned.times(vector(pair.half[k]));
+    }
+    const auto within = [&](V t) { return smaller(larger(t, -one), one); };
+    const V tiny(T(1e-6));
+    const Vec apart = middle[0] - middle[1];
+    const V a = dot(half[0], half[0]) + tiny, b = dot(half[0], half[1]),
+            e = dot(half[1], half[1]) + tiny;
+    const V c = dot(half[0], apart), f = dot(half[1], apart);
+    const V t = within((b * f - c * e) / larger(a * e - b * b, tiny * tiny));
+    const V u = within((b * t + f) / e);
+    const Vec from = middle[0] + within((b * u - c) / a) * half[0], to = middle[1] + u * half[1];
+    const Vec way = from - to;
+    const V length = square_root(dot(way, way)) + tiny;
+    const V depth = V(pair.radius) - length;
+    if (!any_positive(depth)) return;
+    const Vec normal = (one / length) * way, r = V(T(0.5)) * (from + to);
+    const auto moving = [&](int k) { return p[k]->now.move + cross(p[k]->now.turn, r); };
+    const V across = dot(normal, moving(0) - moving(1));
+    const V on = smaller(depth, stiffness * depth - damping * across);
+    const V firm = if_positive(on, V(h) * stiffness + damping, zero);
+    const Vec push = (if_positive(on, stiffness * depth, zero) - firm * across) * normal;
+    for (int k = 0; k < 2; ++k) {
+      const Vec force = k == 0 ? push : V(T(-1)) * push;
+      p[k]->force.move = p[k]->force.move - force;
+      p[k]->force.turn = p[k]->force.turn - cross(r, force);
+      resist(p[k]->inertia, r, normal, V(h) * firm, zero);
+    }
+  }
+
   /// Adds resistance to a point's motion across and along the ground.
   static BOTSCHOOL_INLINE void resist(Inertia<V>& inertia, Vec r, Vec normal, V across, V along) {
     const V extra = across - along;
@@ -468,6 +522,9 @@ struct Space {
       torque -= V(limit) * beyond + firm * rate[i];
       extra += V(h) * firm;
     }
+    // forces on a heavier body do what less does to the table's
+    torque = lightness * torque;
+    extra = lightness * extra;
     p.answer = p.inertia.times(p.axis);
     p.inverse = V(T(1)) / (dot(p.axis, p.answer) + extra);
     p.pull = torque - dot(p.axis, p.force);

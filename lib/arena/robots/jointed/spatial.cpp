@@ -9,14 +9,14 @@ namespace {
 constexpr Link kBallLinks[]{
     {"ball", -1, {}, {}, {}, -1, 2, {}, {0.008, 0.008, 0.008, 0, 0, 0}}};
 constexpr Shape kBallShapes[]{{0, {}, {}, 0.1}};
-constexpr Solid kBall{"ball", kBallLinks, kBallShapes};
+constexpr Solid kBall{"ball", kBallLinks, kBallShapes, nullptr, 1, 1, 0, 0, 0, {}};
 constexpr Link kBoxLinks[]{
     {"box", -1, {}, {}, {}, -1, 3, {}, {0.0125, 0.0425, 0.05, 0, 0, 0}}};
 constexpr Shape kBoxShapes[]{{0, {0.2, 0.1, 0}, {0, 0, 0.05}, 0},
                              {0, {0.2, -0.1, 0}, {0, 0, 0.05}, 0},
                              {0, {-0.2, 0.1, 0}, {0, 0, 0.05}, 0},
                              {0, {-0.2, -0.1, 0}, {0, 0, 0.05}, 0}};
-constexpr Solid kBox{"box", kBoxLinks, kBoxShapes};
+constexpr Solid kBox{"box", kBoxLinks, kBoxShapes, nullptr, 1, 4, 0, 0, 0, {}};
 
 class Looked final : public SpatialBody {
  public:
@@ -88,11 +88,11 @@ class Looked final : public SpatialBody {
   }
 
   void advance(double* state, const double* action, double h, int steps, double gravity,
-               const Firmness& firm, bool single) const override {
+               const Firmness& firm, const Ground& ground, bool single) const override {
     if (single)
-      run<float>(state, action, h, steps, gravity, firm);
+      run<float>(state, action, h, steps, gravity, firm, ground);
     else
-      run<double>(state, action, h, steps, gravity, firm);
+      run<double>(state, action, h, steps, gravity, firm, ground);
   }
 
  private:
@@ -112,11 +112,16 @@ class Looked final : public SpatialBody {
 
   template <class T>
   void run(double* state, const double* action, double h, int steps, double gravity,
-           const Firmness& firm) const {
+           const Firmness& firm, const Ground& ground) const {
     using V = Lanes<T, 1>;
     const auto body = std::make_unique<Space<T, 1>>();
     body->read(solid_, firm);
     body->gravity = T(gravity);
+    auto& terrain = body->terrain;
+    terrain.ground = ground;
+    terrain.x = T(state[0]);
+    terrain.y = T(state[1]);
+    for (auto& phase : terrain.phase) phase = T(0);
     load_state(*body, rows_, [&](int row) { return V(T(state[row])); });
     V motor[kMaxLinks];
     for (int i = 0; i < solid_.motors; ++i) motor[i] = T(action[i]);
@@ -135,8 +140,12 @@ class Looked final : public SpatialBody {
 std::vector<std::unique_ptr<SpatialBody>> spatial_bodies() {
   std::vector<std::unique_ptr<SpatialBody>> bodies;
   for (const Solid& solid : {kAnt, kHumanoid, kHumanoidStandup, kBall, kBox})
-    bodies.push_back(std::make_unique<Looked>(solid));
+    bodies.push_back(spatial_body(solid));
   return bodies;
+}
+
+std::unique_ptr<SpatialBody> spatial_body(const Solid& solid) {
+  return std::make_unique<Looked>(solid);
 }
 
 }  // namespace botschool

@@ -29,10 +29,13 @@ class SpatialBody {
                                             const double* action, double gravity) const = 0;
   /// `steps` substeps of h seconds; updates `state`. In single precision on request, as in evolution.
   virtual void advance(double* state, const double* action, double h, int steps, double gravity,
-                       const Firmness& firm, bool single) const = 0;
+                       const Firmness& firm, const Ground& ground, bool single) const = 0;
 };
 
 /// All bodies, those for tests included.
 std::vector<std::unique_ptr<SpatialBody>> spatial_bodies();
+
+/// A body of a table that stays where it is.
+std::unique_ptr<SpatialBody> spatial_body(const Solid& solid);
 
 }  // namespace botschool

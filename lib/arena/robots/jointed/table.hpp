@@ -8,21 +8,27 @@
 
 #include "../../engine/problem.hpp"
 
-BOTSCHOOL_BEGIN
+namespace botschool {
 
-/// A rod with round ends, of water's density: where its centre is in its segment's frame, the
-/// direction of its axis, half its length without the ends, and its radius.
-struct Capsule {
-  double x = 0, z = 0, angle = 0, half = 0, radius = 0;
-};
-
-/// Between a segment and its parent. The torque of a hinge at angle q with speed u is
+/// Between a part of a body and its parent. The torque of a hinge at angle q with speed u is
 /// torque * action - stiffness * q - damping * u, plus the torque of its limits.
 struct Hinge {
   double low = 0, high = 0;  ///< limits of the angle
   double torque = 0;         ///< at an action of 1
   double damping = 0, stiffness = 0;
   double armature = 0;  ///< moment of inertia of the motor, which turns with the hinge
+};
+
+constexpr double kGravity = 9.81;
+
+}  // namespace botschool
+
+BOTSCHOOL_BEGIN
+
+/// A rod with round ends, of water's density: where its centre is in its segment's frame, the
+/// direction of its axis, half its length without the ends, and its radius.
+struct Capsule {
+  double x = 0, z = 0, angle = 0, half = 0, radius = 0;
 };
 
 constexpr int kCapsules = 2;
@@ -55,7 +61,6 @@ struct Limit {
   double stiffness, damping;
 };
 
-constexpr double kGravity = 9.81;
 /// A larger sum of speeds (m/s, rad/s) ends an episode: the simulation has broken down.
 constexpr double kWildest = 300;
 constexpr double kDensity = 1000;

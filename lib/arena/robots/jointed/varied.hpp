@@ -1,0 +1,60 @@
+// What differs from episode to episode in a race that varies: docs/specification.md, "Bodies in space".
+#pragma once
+
+#include "../../engine/problem.hpp"
+#include "solid.hpp"
+
+BOTSCHOOL_BEGIN
+
+/// Factors that are drawn for an episode.
+enum Share { kFirmness, kFriction, kMass, kMotors, kShares };
+
+template <int L>
+struct Varied {
+  Vary vary;
+  double share[kShares][L];
+
+  bool any() const { return vary.ground || vary.mass || vary.motors; }
+
+  void start(int lane, NoiseKey key) {
+    Random random(key.seed, key.episode, Stream::vary);
+    const auto draw = [&](bool varies, double low, double high) {
+      const double drawn = random.uniform(low, high);
+      return varies ? drawn : 1.0;
+    };
+    share[kFirmness][lane] = draw(vary.ground, 0.5, 2);
+    share[kFriction][lane] = draw(vary.ground, 0.6, 1.2);
+    share[kMass][lane] = draw(vary.mass, 0.8, 1.25);
+    share[kMotors][lane] = draw(vary.motors, 0.8, 1.25);
+    late_[lane] = draw(vary.delay, 0, 2) >= 1 && vary.delay;
+    for (auto& row : before_) row[lane] = 0;
+    key_[lane] = key;
+    step_[lane] = 0;
+  }
+
+  /// The action of a motor, or in some episodes that of the step before.
+  double delayed(int lane, int motor, double action) {
+    const double given = late_[lane] ? before_[motor][lane] : action;
+    before_[motor][lane] = action;
+    return given;
+  }
+
+  /// Gaussian noise on the observation of a row of the state.
+  double noise(int lane, int row, double deviation) const {
+    if (!vary.noise) return 0;
+    return deviation * gaussian_of(philox(key_[lane].seed, key_[lane].episode, Stream::sensor,
+                                          step_[lane], std::uint32_t(row)));
+  }
+
+  void next() {
+    for (auto& step : step_) ++step;
+  }
+
+ private:
+  bool late_[L];
+  double before_[kMaxLinks][L];
+  NoiseKey key_[L];
+  std::uint32_t step_[L];
+};
+
+BOTSCHOOL_END

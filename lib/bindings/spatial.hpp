@@ -1,0 +1,73 @@
+// What the bindings share about races in space.
+#pragma once
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+
+#include "arena/robots/jointed/solid.hpp"
+#include "bindings.hpp"
+
+namespace botschool {
+
+/// Choices about a race in space, and the tables of a declared body.
+struct Race {
+  SpaceOptions options;
+  std::vector<std::string> names;
+  std::vector<Link> links;
+  std::vector<Shape> shapes;
+  Solid solid{};
+  Course course{};
+
+  Race(std::vector<double> ground, const std::vector<std::string>& vary) {
+    if (ground.size() != 3) throw std::invalid_argument("the ground has slope, step and bumps.");
+    options.ground = {ground[0], ground[1], ground[2]};
+    const auto has = [&](const char* name) {
+      return std::find(vary.begin(), vary.end(), name) != vary.end();
+    };
+    options.vary = {has("ground"), has("mass"), has("motors"), has("delay"), has("noise")};
+  }
+  Race(const Race&) = delete;
+
+  /// A row a link: parent, place, axis, lower and upper limit, torque, damping, stiffness, armature,
+  /// motor, mass, centre, inertia. A row a shape: link, place, half axis, radius.
+  void declare(const std::vector<std::string>& given, Matrix<const double> rows,
+               Matrix<const double> forms, const Firmness& firm, double seconds, int substeps,
+               double height, double noise, double low, double high, double alive, double effort) {
+    const std::size_t n = rows.shape(0), s = forms.shape(0);
+    if (rows.shape(1) != 24 || forms.shape(1) != 8 || given.size() != n)
+      throw std::invalid_argument("a link has a name and 24 numbers, and a shape has 8.");
+    if (n < 2 || n > std::size_t(kMaxLinks) || s > std::size_t(kMaxBalls / 2))
+      throw std::invalid_argument("a body has 2 to " + std::to_string(kMaxLinks) +
+                                  " links and at most " + std::to_string(kMaxBalls / 2) +
+                                  " shapes, but this one has " + std::to_string(n) + " and " +
+                                  std::to_string(s) + ".");
+    names = given;
+    int motors = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double* r = rows.data() + i * 24;
+      if (r[0] >= double(i) || (i > 0 && r[0] < 0))
+        throw std::invalid_argument("a link comes after its parent.");
+      Link link{names[i].c_str(), int(r[0]), {r[1], r[2], r[3]}, {r[4], r[5], r[6]},
+                {r[7], r[8], r[9], r[10], r[11], r[12]}, int(r[13]), r[14],
+                {r[15], r[16], r[17]}, {}};
+      std::copy(r + 18, r + 24, link.inertia);
+      motors = std::max(motors, link.motor + 1);
+      links.push_back(link);
+    }
+    for (std::size_t i = 0; i < s; ++i) {
+      const double* r = forms.data() + i * 8;
+      if (r[0] < 0 || r[0] >= double(n)) throw std::invalid_argument("a shape lies on a link.");
+      shapes.push_back({int(r[0]), {r[1], r[2], r[3]}, {r[4], r[5], r[6]}, r[7]});
+    }
+    if (motors > int(n)) throw std::invalid_argument("a motor moves one hinge.");
+    solid = {"body", links.data(), shapes.data(), nullptr, int(n), int(s), 0, motors, 0, firm};
+    course = {&solid, seconds, substeps, height, noise, false, low, high};
+    course.alive = alive;
+    course.effort = effort;
+    options.course = &course;
+  }
+};
+
+}  // namespace botschool
