@@ -1,4 +1,7 @@
-"""Write lib/arena/robots/jointed/solids.hpp from Gymnasium's models for MuJoCo: python tools/spatial_tables.py."""
+"""Write lib/arena/robots/jointed/solids.hpp from Gymnasium's models for MuJoCo.
+
+python tools/spatial_tables.py
+"""
 
 from __future__ import annotations
 
@@ -54,7 +57,13 @@ def table(file: str, name: str, firmness: str, touching) -> str:
             dof, free = m.jnt_dofadr[j], link < 0
             at = d.xpos[body] if free else d.xanchor[j]
             place = at - (at if free else origin[link])
-            hinge = [*m.jnt_range[j], 0, m.dof_damping[dof], m.jnt_stiffness[j], m.dof_armature[dof]]
+            hinge = [
+                *m.jnt_range[j],
+                0,
+                m.dof_damping[dof],
+                m.jnt_stiffness[j],
+                m.dof_armature[dof],
+            ]
             hinge[2] = m.actuator_gear[motor[j], 0] if j in motor else 0
             axis = np.zeros(3) if free else d.xaxis[j]
             names.append("torso" if free else label(mujoco.mjtObj.mjOBJ_JOINT, j))
@@ -64,7 +73,9 @@ def table(file: str, name: str, firmness: str, touching) -> str:
         link_of[body] = link
         turn = d.ximat[body].reshape(3, 3)
         inertia = turn @ np.diag(m.body_inertia[body]) @ turn.T
-        parts.setdefault(link, []).append((m.body_mass[body], d.xipos[body] - origin[link], inertia))
+        parts.setdefault(link, []).append(
+            (m.body_mass[body], d.xipos[body] - origin[link], inertia)
+        )
     lines = [f"\ninline constexpr Link k{name}Links[]{{"]
     for i, (parent, place, axis, hinge, actuator) in enumerate(rows):
         mass, first = 0.0, np.zeros(3)
@@ -102,4 +113,8 @@ def table(file: str, name: str, firmness: str, touching) -> str:
 
 
 if __name__ == "__main__":
-    TARGET.write_text(HEAD + "".join(table(file, *each) for file, each in BODIES.items()) + "\n}  // namespace botschool\n// clang-format on\n")
+    TARGET.write_text(
+        HEAD
+        + "".join(table(file, *each) for file, each in BODIES.items())
+        + "\n}  // namespace botschool\n// clang-format on\n"
+    )

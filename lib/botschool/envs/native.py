@@ -14,7 +14,6 @@ from botschool import config
 from botschool.arenas.plan import Plan
 from botschool.envs.simulation import RENDER_MODES, Simulation
 from botschool.errors import BotschoolError
-from botschool.problems.native import INFOS
 
 
 class NativeEnv(gymnasium.Env):
@@ -42,17 +41,20 @@ class NativeEnv(gymnasium.Env):
         robots: Sequence[str] = (),
         morphology: np.ndarray | None = None,
         arena: Plan | str | os.PathLike[str] | None = None,
+        options: str = "",
     ) -> None:
         self.render_mode = render_mode
         plan = arena if isinstance(arena, Plan) or arena is None else config.load(arena).plan
         if plan is None and arena is not None:
             raise BotschoolError(f"{arena} has no section [ARENA].")
-        self._simulation = Simulation(problem, render_mode, noise=noise, robots=robots, plan=plan)
+        self._simulation = Simulation(
+            problem, render_mode, noise=noise, robots=robots, plan=plan, options=options
+        )
         if self._simulation.interface.robots > 1:
             raise BotschoolError(
                 f"A Gymnasium environment has one robot, but this arena has {len(plan.robots)}."
             )
-        info = INFOS[problem]
+        info, interface = self._simulation.info, self._simulation.interface
         own: Any = self  # each environment has its own
         own.metadata = self.metadata | {"render_fps": round(1 / info["seconds"])}
         far = np.finfo(np.float32).max
@@ -61,7 +63,7 @@ class NativeEnv(gymnasium.Env):
         if info["discrete"]:
             self.action_space = spaces.Discrete(info["outputs"])
         else:
-            shape = (info["outputs"],)
+            shape = (interface.outputs,)
             self.action_space = spaces.Box(info["low"], info["high"], shape, np.float32)
 
         self.morphology_size = info["body"]

@@ -24,7 +24,7 @@ class Simulation:
     problem: its name in C++. limit: longest episode in steps, None means the problem's own. noise:
     standard deviation of an arena's infrared readings, None means the problem's own. robots: kinds
     of its wheeled robots, one for all or one each; () means the problem's own. plan: a declared
-    arena.
+    arena. options: of a runner (botschool.problems.space).
     """
 
     def __init__(
@@ -35,13 +35,14 @@ class Simulation:
         noise: float | None = None,
         robots: Sequence[str] = (),
         plan: Plan | None = None,
+        options: str = "",
     ) -> None:
         if render_mode not in (None, *RENDER_MODES):
             raise BotschoolError(
                 f"render_mode is one of {', '.join(RENDER_MODES)} or None, not {render_mode!r}."
             )
-        self.info = INFOS[problem]
-        self._problem = NativeProblem(problem, robots, plan=plan)
+        self._problem = NativeProblem(problem, robots, plan=plan, options=options)
+        self.info = INFOS[problem] | {"seconds": 1 / self._problem.fps}
         self.interface = self._problem.interface
         self.limit = self._problem.limit if limit is None else limit
         self.steps = 0

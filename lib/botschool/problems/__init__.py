@@ -15,7 +15,7 @@ from botschool import sisters
 from botschool.arenas.plan import PROBLEM, Plan
 from botschool.errors import BotschoolError
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
-from botschool.problems.native import NATIVE, NativeProblem, alive_of
+from botschool.problems.native import NATIVE, NativeProblem
 
 __all__ = ["Episodes", "Interrupted", "Outcome", "Problem", "make", "names", "of"]
 
@@ -32,14 +32,13 @@ def make(
     a declared arena, for ErArena.
 
     wrappers: around its environment (botschool.wrappers); a native problem is then played as a
-    Gymnasium environment. options: keywords of the environment's constructor; a native planar
-    runner takes `alive`, the reward for each step without a fall. competitive: two sides evolve
+    Gymnasium environment. options: keywords of the environment's constructor; a native
+    runner has its own (botschool.problems.space). competitive: two sides evolve
     against each other in it. Raises BotschoolError if there is no such problem, or if it has no
     such robots, wrappers or options.
     """
     if name in NATIVE and not wrappers:
-        alive = alive_of(name, options) if options else 0.0
-        return NativeProblem(name, robots, plan=plan, alive=alive)
+        return NativeProblem(name, robots, plan=plan, options=options)
     if plan is not None and name == PROBLEM:
         raise BotschoolError(f"A declared arena takes no wrappers: remove wrappers = {wrappers}.")
     if name in NATIVE and NativeProblem(name).interface.robots > 1:

@@ -13,8 +13,8 @@ from botschool.arenas.robots import RobotModel, cast
 from botschool.errors import BotschoolError
 from botschool.policies.policy import Interface, Policy
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
+from botschool.problems.space import options_of
 from botschool.problems.transition import Transition
-from botschool.wrappers import keywords
 
 INFOS = {info["name"]: info for info in _core.native_problems()}
 """Description of each native problem from lib/arena/problems, by its name in C++."""
@@ -23,19 +23,6 @@ NATIVE = {name: (name, info["limit"]) for name, info in INFOS.items()} | {
     info["alias"]: (name, info["alias_limit"]) for name, info in INFOS.items() if info["alias"]
 }
 """Name in experiment files -> (name in C++, longest episode)."""
-
-RUNNERS = tuple(
-    f"{body}-v{version}"
-    for body in (
-        "PlanarHopper",
-        "PlanarWalker2D",
-        "PlanarHalfCheetah",
-        "SpatialAnt",
-        "SpatialHumanoid",
-    )
-    for version in "05"
-)
-"""Problems that take the option `alive`."""
 
 # Evaluation can stop between batches of about this many steps.
 BATCH_STEPS = 20_000_000
@@ -57,13 +44,14 @@ class NativeProblem(Problem):
         robots: Sequence[str] = (),
         instruction_set: str = "",
         plan: Plan | None = None,
-        alive: float = 0.0,
+        options: str = "",
     ) -> None:
-        """Make the problem; alive: a runner's reward for each step that does not end its
-        episode early, in addition to the problem's own reward.
-        """
+        """Make the problem; options: of a runner (botschool.problems.space)."""
         self.name = name
-        self.alive = alive
+        chosen = options_of(name, options)
+        self.alive = chosen.alive
+        """A runner's reward for each step that does not end its episode early, in addition to the
+        problem's own."""
         self.dynamics, self.limit = NATIVE[name]
         self.plan = Plan() if plan is None and name == PROBLEM else plan
         """A declared arena; None for other problems."""
@@ -76,7 +64,10 @@ class NativeProblem(Problem):
             self.limit = self.plan.steps
         self.robots = _cast(name, info, robots, self.plan)
         """Models of its wheeled robots; () for other problems."""
-        self._options = self.options() if self.robots else None
+        info = info | (chosen.body or {})
+        self.race = chosen.race
+        """Choices about a race in space, or None."""
+        self._options = self.options() if self.robots else self.race
         self.fps = 1 / info["seconds"]
         self.common, self.sides = info["common"], info["sides"]
         self.constant_sum = not self.common
@@ -90,8 +81,10 @@ class NativeProblem(Problem):
             robots=info["robots"],
         )
 
-    def options(self, noise: float | None = None) -> _core.ArenaOptions:
-        """Return the arena's options for C++; noise: of its sensors, None for its own."""
+    def options(self, noise: float | None = None) -> _core.ArenaOptions | _core.Race | None:
+        """Return the options for C++; noise: of an arena's sensors, None for its own."""
+        if not self.robots:
+            return self.race
         core = self.plan.core if self.plan else None
         return _core.ArenaOptions([model.name for model in self.robots], noise, declaration=core)
 
@@ -180,24 +173,6 @@ class NativeProblem(Problem):
                 activations=tape["activations"][t],
                 state=tape["states"][t + 1],
             )
-
-
-def alive_of(name: str, options: str) -> float:
-    """Return the reward for standing in a native problem's options. Raises BotschoolError."""
-    if name not in RUNNERS:
-        raise BotschoolError(f"{name} takes no options: remove the line options = {options}.")
-    given = keywords(options)
-    value = given.pop("alive", None)
-    if given or isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise BotschoolError(
-            f"{name} takes one option, the reward for each step without a fall: write options "
-            f"= alive=0.5 instead of options = {options}."
-        )
-    if not -100 <= value <= 100:
-        raise BotschoolError(
-            f"alive = {value} is out of range: it needs a number from -100 to 100."
-        )
-    return float(value)
 
 
 def _concatenated(parts: list[tuple]) -> tuple:

@@ -74,7 +74,8 @@ class Looked final : public SpatialBody {
     One motor[kMaxLinks];
     for (int i = 0; i < solid_.motors; ++i) motor[i] = action[i];
     body->gravity = gravity;
-    body->place.z = 1e6;  // in the air
+    body->place.z = 1e6;  // in the air, and no parts touch each other
+    body->numbers.pairs = 0;
     for (int i = 1; i < solid_.links; ++i) body->numbers.link[i].limited = false;
     const auto before = body->speed;
     body->kick(motor, 0);

@@ -1,0 +1,135 @@
+"""Read the options of runners: reward for standing, ground, variations, a declared body."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from botschool import _core
+from botschool.errors import BotschoolError
+from botschool.inifile import nearest
+from botschool.wrappers import keywords
+
+VARY = ("ground", "mass", "motors", "delay", "noise")
+DECLARED = "SpatialBody-v0"
+"""The problem whose body its user may declare; without one it is the ant's."""
+RUNNERS = tuple(
+    f"{body}-v{version}"
+    for body in (
+        "PlanarHopper", "PlanarWalker2D", "PlanarHalfCheetah", "SpatialAnt", "SpatialHumanoid",
+    )
+    for version in "05"
+)  # fmt: skip
+"""Problems that take the option `alive`."""
+SPACE = (*(name for name in RUNNERS if name.startswith("Spatial")), "SpatialHumanoidStandup-v0")
+
+RANGES: dict[str, tuple[str, float, float, float]] = {
+    "alive": ("the reward for each step without a fall", 0.0, -100, 100),
+    "slope": ("metres that the ground rises with each metre ahead", 0.0, -1, 1),
+    "step": ("metres that the ground rises at x = 2", 0.0, -0.5, 0.5),
+    "bumps": ("height of the ground's bumps in metres", 0.0, 0, 0.2),
+}
+BODY: dict[str, tuple[str, float, float, float]] = {
+    "seconds": ("length of a step", 0.02, 0.001, 0.1),
+    "substep": ("seconds of a substep", 0.002, 0.0001, 0.01),
+    "noise": ("of the start's coordinates and speeds", 0.01, 0, 0.5),
+    "lowest": ("height of the root below which an episode ends", 0.0, -100, 100),
+    "highest": ("height of the root above which an episode ends", 100.0, -100, 100),
+    "effort": ("price of the sum of squared actions", 0.0, 0, 100),
+}
+
+
+@dataclass(frozen=True)
+class Options:
+    """Options of a runner; `race` is None if it is the problem's own."""
+
+    alive: float = 0.0
+    race: Any = None
+    body: dict | None = None
+    """Of a declared body: what differs from the problem's description in C++."""
+
+
+def options_of(name: str, text: str) -> Options:
+    """Return the options of a native problem from `alive=0.5, vary='ground, mass'`.
+
+    Raises BotschoolError.
+    """
+    space, declared = name in SPACE or name == DECLARED, name == DECLARED
+    if not text:
+        return Options()
+    if name not in RUNNERS and not space:
+        raise BotschoolError(f"{name} takes no options: remove the line options = {text}.")
+    given = keywords(text)
+    known = dict(RANGES) if space else {"alive": RANGES["alive"]}
+    known |= BODY if declared else {}
+    words = [*known, *["vary"] * space, *["urdf"] * declared]
+    for key in given:
+        if key not in words:
+            raise BotschoolError(
+                f"{name} has no option '{key}': {nearest(key, words)}. It takes {', '.join(words)}."
+            )
+    value = {key: _number(key, given.get(key, row[1]), row) for key, row in known.items()}
+    if not space:
+        return Options(value["alive"])
+    race = _core.Race([value["slope"], value["step"], value["bumps"]], _varied(given))
+    if not declared or "urdf" not in given:
+        needless = sorted(given.keys() & BODY.keys())
+        if needless:
+            raise BotschoolError(
+                f"{needless[0]} is of a robot of your own: add urdf='my_robot.urdf' to the options."
+            )
+        return Options(value["alive"], race if given.keys() - {"alive"} else None)
+    return _declared(given, value, race)
+
+
+def _number(key: str, value: Any, row: tuple[str, float, float, float]) -> float:
+    meaning, _, low, high = row
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not low <= value <= high:
+        raise BotschoolError(
+            f"{key} = {value!r} is not possible: it is {meaning}, a number from {low} to {high}."
+        )
+    return float(value)
+
+
+def _varied(given: dict) -> list[str]:
+    text = given.get("vary", "")
+    names = (
+        [word.strip() for word in text.split(",") if word.strip()]
+        if isinstance(text, str)
+        else None
+    )
+    if names is None or not set(names) <= set(VARY):
+        wrong = next((word for word in names or () if word not in VARY), text)
+        raise BotschoolError(
+            f"vary = {wrong!r} is not possible: write some of {', '.join(VARY)} in quotes, as in "
+            "vary='ground, mass'."
+        )
+    return names
+
+
+def _declared(given: dict, value: dict[str, float], race: Any) -> Options:
+    from botschool.problems.urdf import Urdf
+
+    path = given["urdf"]
+    if not isinstance(path, str):
+        raise BotschoolError(f"urdf = {path!r} is no path of a file: write urdf='my_robot.urdf'.")
+    if value["substep"] > value["seconds"]:
+        raise BotschoolError("substep must not be above seconds.")
+    robot = Urdf(path)
+    robot.declare(
+        race,
+        seconds=value["seconds"],
+        substeps=max(1, round(value["seconds"] / value["substep"])),
+        height=robot.height,
+        noise=value["noise"],
+        low=value["lowest"],
+        high=value["highest"],
+        alive=0.0,
+        effort=value["effort"],
+    )
+    facts = {
+        "observations": 2 * len(robot.links) + 9,
+        "outputs": int(robot.links[:, 13].max()) + 1,
+        "seconds": value["seconds"],
+    }
+    return Options(value["alive"], race, facts)
