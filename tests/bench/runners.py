@@ -1,4 +1,4 @@
-"""Planar runners beside the same bodies in Gymnasium's MuJoCo, EnvPool's MuJoCo and PyBullet."""
+"""Runners beside the same bodies in Gymnasium's MuJoCo, EnvPool's MuJoCo and PyBullet."""
 
 from __future__ import annotations
 
@@ -22,6 +22,8 @@ BODIES = {
     "planarhopper": (300e3, "Hopper-v5", "HopperBulletEnv-v5"),
     "planarwalker2d": (150e3, "Walker2d-v5", "Walker2DBulletEnv-v5"),
     "planarhalfcheetah": (150e3, "HalfCheetah-v5", "HalfCheetahBulletEnv-v5"),
+    "spatialant": (400e3, "Ant-v5", "AntBulletEnv-v5"),
+    "spatialhumanoid": (500e3, "Humanoid-v5", "HumanoidBulletEnv-v5"),
 }
 CANDIDATES = 320
 """Of a batch; when no episode of it is left to begin, lanes fall idle one by one."""
@@ -109,14 +111,15 @@ def _others(body: str, hiddens: int) -> list[Callable[[], int] | None]:
 def runners(seconds: float, repetitions: int) -> Table:
     """Steps per second, one core."""
     table = Table(
-        "Planar runners: steps/s of policy and problem, one core",
+        "Runners: steps/s of policy and problem, one core",
         f"{CANDIDATES} candidates around the robots of data/genotypes (noise {SCALED}), an episode "
         f"each; best of {repetitions} interleaved repetitions, in processor time. MuJoCo and "
         "PyBullet: a Python loop over gymnasium.make(id) with a random network of the same size "
         "in double precision. EnvPool: 64 environments stepped by one thread, random actions, "
-        "no network. A step is 0.008 s (half cheetah 0.05 s) in all but PyBullet (0.0165 s).",
+        "no network. A step is 0.008 s (half cheetah and ant 0.05 s, humanoid 0.015 s) in all but "
+        "PyBullet (0.0165 s). The targets of ant and humanoid are for AVX-512.",
         [
-            "experiment", "steps / episode", "planar", "target", "",
+            "experiment", "steps / episode", "native", "target", "",
             "Gymnasium's MuJoCo", "EnvPool's MuJoCo", "PyBullet",
         ],
     )  # fmt: skip
@@ -140,7 +143,7 @@ def runners(seconds: float, repetitions: int) -> Table:
 def two_workers_on_runners(repetitions: int) -> Table:
     """Evaluation of whole episodes on one worker and on two."""
     table = Table(
-        "Planar runners: two workers against one",
+        "Runners: two workers against one",
         f"Steps/s as above, by the clock; the fastest of {repetitions} calls each, taking turns. "
         "A worker steps 16 episodes together until the longest of them ends. So the end of a batch "
         "takes as long with two workers as with one, and it is a larger part of a short batch.",

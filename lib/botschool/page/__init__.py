@@ -70,9 +70,10 @@ def write_page(
 
 
 def part_of(problem: str) -> str:
-    """Return which of the four cores has a problem (lib/CMakeLists.txt)."""
-    if problem.startswith("Planar"):
-        return "planar"
+    """Return which of the five cores has a problem (lib/CMakeLists.txt)."""
+    for part in ("planar", "spatial"):
+        if problem.lower().startswith(part):
+            return part
     return {"ErDiscrim": "discrim", "ErPredprey": "predprey"}.get(problem, "classic")
 
 
@@ -94,10 +95,11 @@ def problem_scene(problem: NativeProblem) -> Any:
 
 def _checked(experiment: Experiment) -> NativeProblem:
     problem = problems.of(experiment)
-    if not isinstance(problem, NativeProblem) or problem.plan or experiment.exp.robots:
+    own = isinstance(problem, NativeProblem) and (problem.plan or problem.race)
+    if not isinstance(problem, NativeProblem) or own or experiment.exp.robots:
         raise BotschoolError(
             f"{experiment.exp.environment} cannot go into a page: pages have the native problems "
-            "with robots and arenas of their own, such as Acrobot-v1, ErDiscrim or PlanarHopper-v5."
+            "with robots, arenas and ground of their own, such as Acrobot-v1, ErDiscrim or PlanarHopper-v5."
         )
     if not experiment.competitive and experiment.exp.algo not in ALGORITHMS:
         raise BotschoolError(
