@@ -95,6 +95,11 @@ class InEnvPool:
         return STEPS * 64
 
 
+def _evolved(body: str) -> bool:
+    """Return whether data/genotypes has the robot."""
+    return (DATA / "genotypes" / f"{body}.npy").is_file()
+
+
 def _others(body: str, hiddens: int) -> list[Callable[[], int] | None]:
     """MuJoCo in Gymnasium and in EnvPool, and PyBullet; None for what is not installed."""
     _, mujoco, bullet = BODIES[body]
@@ -124,6 +129,8 @@ def runners(seconds: float, repetitions: int) -> Table:
         ],
     )  # fmt: skip
     for body, (target, *_) in BODIES.items():
+        if not _evolved(body):
+            continue
         around = Around(body)
         others = _others(body, around.policy.config.nhiddens)
         present = [player for player in others if player]
@@ -149,7 +156,7 @@ def two_workers_on_runners(repetitions: int) -> Table:
         "takes as long with two workers as with one, and it is a larger part of a short batch.",
         ["experiment", "candidates", "1 worker", "2 workers", "2 / 1", "target", ""],
     )
-    for body in BODIES:
+    for body in filter(_evolved, BODIES):
         for candidates in (CANDIDATES, LONG_BATCH):
             around = Around(body, candidates)
             one, two = best_call([partial(around.evaluate, w) for w in (1, 2)], repetitions)

@@ -57,21 +57,20 @@ def options_of(name: str, text: str) -> Options:
     space, declared = name in SPACE or name == DECLARED, name == DECLARED
     if not text:
         return Options()
-    if name not in RUNNERS and not space:
+    if not (name in RUNNERS or space):
         raise BotschoolError(f"{name} takes no options: remove the line options = {text}.")
     given = keywords(text)
     known = dict(RANGES) if space else {"alive": RANGES["alive"]}
     known |= BODY if declared else {}
-    words = [*known, *["vary"] * space, *["urdf"] * declared]
+    words = [*known, "vary", *["urdf"] * declared]
     for key in given:
         if key not in words:
             raise BotschoolError(
                 f"{name} has no option '{key}': {nearest(key, words)}. It takes {', '.join(words)}."
             )
     value = {key: _number(key, given.get(key, row[1]), row) for key, row in known.items()}
-    if not space:
-        return Options(value["alive"])
-    race = _core.Race([value["slope"], value["step"], value["bumps"]], _varied(given))
+    ground = [value[key] if space else 0.0 for key in ("slope", "step", "bumps")]
+    race = _core.Race(ground, _varied(given))
     if not declared or "urdf" not in given:
         needless = sorted(given.keys() & BODY.keys())
         if needless:

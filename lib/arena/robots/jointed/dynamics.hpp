@@ -57,6 +57,10 @@ struct Dynamics {
   V change[n];       ///< of the segments' angular speeds in the last substep, halved; 0 if unknown
   V load[contacts];  ///< sum over substeps of each contact point's force across the ground, N
 
+  // what may differ from lane to lane: 1 for the table's
+  V grip = V(T(1)), firmness = V(T(1));  ///< of the ground: its friction, its spring and damper
+  V lightness = V(T(1));                 ///< 1 / mass of everything, armature included
+
   // Numbers of segments, contact points and coordinates are constants for races of many lanes: the
   // compiler unrolls all loops. For single bodies they are ints, and the loops compile fast.
   static constexpr bool unrolls = W > 1;
@@ -211,11 +215,12 @@ struct Dynamics {
       const V spring = if_positive(out, number(Body::limit.stiffness), V(T(0)));
       const V damping =
           number(hinge.damping) + if_positive(out, number(Body::limit.damping), V(T(0)));
-      const V torque = number(hinge.torque) * action[index] -
-                       ((number(hinge.stiffness) * angle + spring * beyond) + damping * rate);
+      const V torque =
+          lightness * (number(hinge.torque) * action[index] -
+                       ((number(hinge.stiffness) * angle + spring * beyond) + damping * rate));
       force[k] += torque;
       force[p] -= torque;
-      const V both = V(h * T(0.5)) * damping;
+      const V both = V(h * T(0.5)) * (lightness * damping);
       mass[k][k] += both;
       mass[p][p] += both;
       mass[k][p] -= both + number(hinge.armature);
@@ -250,12 +255,12 @@ struct Dynamics {
       const Vec tangent{normal.z, -normal.x};
       const V across = dot(normal, moving), sliding = dot(tangent, moving);
       const V share = smaller(depth * number(1 / Body::touch.ramp), V(T(1)));
-      V damping = number(Body::touch.damping) * share;
-      V push = number(Body::touch.stiffness) * depth - damping * across;
+      V damping = firmness * (number(Body::touch.damping) * share);
+      V push = firmness * (number(Body::touch.stiffness) * depth) - damping * across;
       push = if_positive(depth, larger(push, V(T(0))), V(T(0)));
       damping = if_positive(push, damping, V(T(0)));
       const V pace = larger(larger(sliding, -sliding), number(Body::touch.slip));
-      const V drag = number(Body::touch.friction) * push / pace;
+      const V drag = grip * number(Body::touch.friction) * push / pace;
       load[c] += push;
       const Vec pushed = push * normal - (drag * sliding) * tangent;
       force[2 + s] += dot(turn(arm), pushed);
@@ -382,6 +387,9 @@ struct Dynamics {
     });
     upwards<n>(BOTSCHOOL_EACH(i) { to.change[i] = from.change[i]; });
     upwards<contacts>(BOTSCHOOL_EACH(c) { to.load[c] = from.load[c]; });
+    to.grip = from.grip;
+    to.firmness = from.firmness;
+    to.lightness = from.lightness;
   }
 };
 

@@ -116,7 +116,7 @@ struct Racer : ProblemBase {
     for (int k = 2; k < rows.stretch(); ++k)
       for (int l = 0; l < L; ++l)
         out[(k - 2) * L + l] =
-            static_cast<T>(state[k][l] + varied.noise(l, k, k < rows.speed() ? 0.02 : 0.2));
+            static_cast<T>(varied.seen(l, k, state[k][l], k < rows.speed() ? 0.02 : 0.2));
   }
 
   void start(int lane, Random& random) {
@@ -148,7 +148,7 @@ struct Racer : ProblemBase {
       for (int i = 0; i < course->solid->motors; ++i) {
         double within[kWidth];
         for (int l = 0; l < kWidth; ++l) {
-          const double given = varied.delayed(first + l, i, action[i * L + first + l]);
+          const double given = varied.arrived(first + l, i, action[i * L + first + l]);
           within[l] = limited(given, -course->range, course->range);
         }
         motor[i] = V::from(within);

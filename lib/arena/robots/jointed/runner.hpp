@@ -4,6 +4,7 @@
 
 #include "bodies.hpp"
 #include "dynamics.hpp"
+#include "varied.hpp"
 
 BOTSCHOOL_BEGIN
 
@@ -46,6 +47,9 @@ struct Runner : ProblemBase {
   /// last step.
   double state[kStates][L];
   const Race& race;
+  Varied<L> varied;
+
+  void set(const Setting& setting) { varied.vary = setting.space ? setting.space->vary : Vary{}; }
 
   void bounds(double* low, double* high) const {
     for (int i = size - 1; i < 2 * size - 1; ++i) {
@@ -59,10 +63,13 @@ struct Runner : ProblemBase {
   template <class T>
   void observe(T* BOTSCHOOL_RESTRICT out) const {
     for (int k = 1; k < size; ++k)
-      for (int l = 0; l < L; ++l) out[(k - 1) * L + l] = static_cast<T>(relative(k, 0, l));
-    for (int k = 0; k < size; ++k)
       for (int l = 0; l < L; ++l)
-        out[(size - 1 + k) * L + l] = static_cast<T>(clamp(relative(k, size, l), -10.0, 10.0));
+        out[(k - 1) * L + l] = static_cast<T>(varied.seen(l, k, relative(k, 0, l), 0.02));
+    for (int k = 0; k < size; ++k)
+      for (int l = 0; l < L; ++l) {
+        const double rate = clamp(relative(k, size, l), -10.0, 10.0);
+        out[(size - 1 + k) * L + l] = static_cast<T>(varied.seen(l, size + k, rate, 0.2));
+      }
   }
 
   void start(int lane, Random& random) {
@@ -75,6 +82,7 @@ struct Runner : ProblemBase {
       state[size + k][lane] = speed + (p < 0 ? 0 : state[size + p][lane]);
     }
     state[1][lane] += Body::start_height;
+    varied.start(lane, random.key());
   }
 
   void step(const double* action, double* reward, std::int64_t* ended) {
@@ -84,10 +92,12 @@ struct Runner : ProblemBase {
       V motor[n], effort = V(0.0f);
       for (int i = 0; i < n - 1; ++i) {
         double within[kWidth];
-        for (int l = 0; l < kWidth; ++l) within[l] = limited(action[i * L + first + l], -1.0, 1.0);
+        for (int l = 0; l < kWidth; ++l)
+          within[l] = limited(varied.arrived(first + l, i, action[i * L + first + l]), -1.0, 1.0);
         motor[i] = V::from(within);
         effort += motor[i] * motor[i];
       }
+      if (varied.any()) vary(body, motor, first);
       body.run(motor, race.substeps, float(race.seconds / race.substeps));
       const V standing = upright(body);
       const V earned = number(1 / race.seconds) * body.position[0] +
@@ -102,6 +112,7 @@ struct Runner : ProblemBase {
       for (int l = 0; l < kWidth; ++l) ended[first + l] = !(goes[l] > 0);
       store(body, first, real, 1.0f / float(race.substeps));
     }
+    varied.next();
   }
 
  private:
@@ -112,6 +123,14 @@ struct Runner : ProblemBase {
   }
 
   static V number(double x) { return V(float(x)); }
+
+  void vary(Moving& body, V* motor, int first) const {
+    const auto share = [&](int kind) { return V::from(&varied.share[kind][first]); };
+    body.lightness = V(1.0f) / share(kMass);
+    body.grip = share(kFriction);
+    body.firmness = share(kFirmness) * body.lightness;
+    for (int i = 0; i < n - 1; ++i) motor[i] = share(kMotors) * motor[i];
+  }
 
   void load(Moving& body, int first) const {
     for (int k = 0; k < size; ++k) {

@@ -1,4 +1,5 @@
-// What differs from episode to episode in a race that varies: docs/specification.md, "Bodies in space".
+// What differs from episode to episode in a race of jointed bodies: docs/specification.md, "Bodies in
+// space".
 #pragma once
 
 #include "../../engine/problem.hpp"
@@ -33,17 +34,18 @@ struct Varied {
   }
 
   /// The action of a motor, or in some episodes that of the step before.
-  double delayed(int lane, int motor, double action) {
+  double arrived(int lane, int motor, double action) {
+    if (!vary.delay) return action;
     const double given = late_[lane] ? before_[motor][lane] : action;
     before_[motor][lane] = action;
     return given;
   }
 
-  /// Gaussian noise on the observation of a row of the state.
-  double noise(int lane, int row, double deviation) const {
-    if (!vary.noise) return 0;
-    return deviation * gaussian_of(philox(key_[lane].seed, key_[lane].episode, Stream::sensor,
-                                          step_[lane], std::uint32_t(row)));
+  /// A row of the state with Gaussian noise.
+  double seen(int lane, int row, double value, double deviation) const {
+    if (!vary.noise) return value;
+    return value + deviation * gaussian_of(philox(key_[lane].seed, key_[lane].episode,
+                                                  Stream::sensor, step_[lane], std::uint32_t(row)));
   }
 
   void next() {
