@@ -78,14 +78,13 @@ nb::object accelerations(const Whole& whole, Vector<const double> position,
   expect_size(position, whole.coordinates(), "the position");
   expect_size(speed, whole.speeds(), "the speed");
   expect_size(action, whole.body->solid().motors, "the action");
-  return to_numpy(
-      whole.body->accelerations(position.data(), speed.data(), action.data(), gravity),
-      {whole.speeds()});
+  return to_numpy(whole.body->accelerations(position.data(), speed.data(), action.data(), gravity),
+                  {whole.speeds()});
 }
 
 nb::object advance(const Whole& whole, Vector<const double> state, Vector<const double> action,
-                  double h, int steps, double gravity, const Firmness* firm,
-                  const std::vector<double>& ground, bool single) {
+                   double h, int steps, double gravity, const Firmness* firm,
+                   const std::vector<double>& ground, bool single) {
   expect_size(state, whole.state(), "the state");
   expect_size(action, whole.body->solid().motors, "the action");
   if (ground.size() != 3) throw std::invalid_argument("the ground has slope, step and bumps.");
@@ -112,8 +111,7 @@ void bind_spatial(nb::module_& module) {
           nb::arg("stopping") = Firmness{}.stopping);
   nb::class_<Race>(module, "Race")
       .def(nb::init<std::vector<double>, const std::vector<std::string>&>(),
-           nb::arg("ground") = std::vector<double>(3),
-           nb::arg("vary") = std::vector<std::string>())
+           nb::arg("ground") = std::vector<double>(3), nb::arg("vary") = std::vector<std::string>())
       .def("declare", &Race::declare, nb::arg("names"), nb::arg("links"), nb::arg("shapes"),
            nb::arg("firmness"), nb::kw_only(), nb::arg("seconds"), nb::arg("substeps"),
            nb::arg("height"), nb::arg("noise"), nb::arg("low"), nb::arg("high"), nb::arg("alive"),
@@ -130,8 +128,8 @@ void bind_spatial(nb::module_& module) {
       .def("accelerations", &accelerations, nb::arg("position"), nb::arg("speed"),
            nb::arg("action"), nb::arg("gravity") = kGravity)
       .def("advance", &advance, nb::arg("state"), nb::arg("action"), nb::arg("h"),
-           nb::arg("steps") = 1, nb::arg("gravity") = kGravity, nb::arg("firmness").none() = nb::none(),
-           nb::arg("ground") = std::vector<double>(3),
+           nb::arg("steps") = 1, nb::arg("gravity") = kGravity,
+           nb::arg("firmness").none() = nb::none(), nb::arg("ground") = std::vector<double>(3),
            nb::arg("single") = false);
 }
 

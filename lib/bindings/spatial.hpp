@@ -49,9 +49,15 @@ struct Race {
       const double* r = rows.data() + i * 24;
       if (r[0] >= double(i) || (i > 0 && r[0] < 0))
         throw std::invalid_argument("a link comes after its parent.");
-      Link link{names[i].c_str(), int(r[0]), {r[1], r[2], r[3]}, {r[4], r[5], r[6]},
-                {r[7], r[8], r[9], r[10], r[11], r[12]}, int(r[13]), r[14],
-                {r[15], r[16], r[17]}, {}};
+      Link link{names[i].c_str(),
+                int(r[0]),
+                {r[1], r[2], r[3]},
+                {r[4], r[5], r[6]},
+                {r[7], r[8], r[9], r[10], r[11], r[12]},
+                int(r[13]),
+                r[14],
+                {r[15], r[16], r[17]},
+                {}};
       std::copy(r + 18, r + 24, link.inertia);
       motors = std::max(motors, link.motor + 1);
       links.push_back(link);

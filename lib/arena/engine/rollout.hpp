@@ -22,8 +22,7 @@ class Rollout {
     const int robots = given.robots;
     return made_by(entry).size + robots * brain_bytes(layout) + observation_bytes(layout, robots) +
            moments_bytes(layout) + action_bytes(given) +
-           (record_bytes(entry, given, layout) + 63) / 64 * 64 +
-           half_bytes(entry, layout, setting);
+           (record_bytes(entry, given, layout) + 63) / 64 * 64 + half_bytes(entry, layout, setting);
   }
 
   static void run(const Entry& entry, const Layout& layout, const Jobs& jobs, Queue& queue,

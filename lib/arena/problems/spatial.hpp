@@ -63,7 +63,9 @@ struct SpatialHumanoid5 : Racer<L> {
 template <int L>
 struct SpatialStandup : Racer<L> {
   SpatialStandup() : Racer<L>(kStandupCourse) {}
-  static Info info() { return SpatialStandup::describe("SpatialHumanoidStandup-v0", kStandupCourse); }
+  static Info info() {
+    return SpatialStandup::describe("SpatialHumanoidStandup-v0", kStandupCourse);
+  }
 };
 
 /// A body that its user declares; the ant where nothing is declared.

@@ -99,7 +99,8 @@ def _checked(experiment: Experiment) -> NativeProblem:
     if not isinstance(problem, NativeProblem) or own or experiment.exp.robots:
         raise BotschoolError(
             f"{experiment.exp.environment} cannot go into a page: pages have the native problems "
-            "with robots, arenas and ground of their own, such as Acrobot-v1, ErDiscrim or PlanarHopper-v5."
+            "with robots, arenas and ground of their own, such as Acrobot-v1, ErDiscrim or "
+            "PlanarHopper-v5."
         )
     if not experiment.competitive and experiment.exp.algo not in ALGORITHMS:
         raise BotschoolError(

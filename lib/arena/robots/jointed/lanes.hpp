@@ -156,9 +156,7 @@ struct Vector3 {
   friend BOTSCHOOL_INLINE Vector3 operator-(Vector3 a, Vector3 b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
   }
-  friend BOTSCHOOL_INLINE Vector3 operator*(V s, Vector3 a) {
-    return {s * a.x, s * a.y, s * a.z};
-  }
+  friend BOTSCHOOL_INLINE Vector3 operator*(V s, Vector3 a) { return {s * a.x, s * a.y, s * a.z}; }
 };
 
 template <class V>

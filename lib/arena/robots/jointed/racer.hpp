@@ -160,9 +160,9 @@ struct Racer : ProblemBase {
       if (course->centre) way += moving.ahead();
       const V height = moving.place.z;
       const V standing = smaller(height - number(course->low), number(course->high) - height);
-      const V earned = number(course->ahead / course->seconds) * way + number(course->lift) * height +
-                       if_positive(standing, number(course->alive), V(0.0f)) -
-                       number(course->effort) * effort;
+      const V earned =
+          number(course->ahead / course->seconds) * way + number(course->lift) * height +
+          if_positive(standing, number(course->alive), V(0.0f)) - number(course->effort) * effort;
       const V real = real_numbers();
       if_positive(real, earned, V(0.0f)).to(reward + first);
       double goes[kWidth];

@@ -11,136 +11,10 @@
 // of the change, predicted from the last substep's change.
 #pragma once
 
-#include "lanes.hpp"
-#include "solid.hpp"
+#include "links.hpp"
 #include "terrain.hpp"
 
 BOTSCHOOL_BEGIN
-
-/// A motion (turning, moving), or a torque about the root's origin and a force.
-template <class V>
-struct Screw {
-  Vector3<V> turn, move;
-  friend BOTSCHOOL_INLINE Screw operator+(Screw a, Screw b) {
-    return {a.turn + b.turn, a.move + b.move};
-  }
-  friend BOTSCHOOL_INLINE Screw operator*(V s, Screw a) { return {s * a.turn, s * a.move}; }
-};
-
-template <class V>
-BOTSCHOOL_INLINE V dot(const Screw<V>& a, const Screw<V>& b) {
-  return dot(a.turn, b.turn) + dot(a.move, b.move);
-}
-
-/// How motion b changes when its frame moves with motion a.
-template <class V>
-BOTSCHOOL_INLINE Screw<V> carried(const Screw<V>& a, const Screw<V>& b) {
-  return {cross(a.turn, b.turn), cross(a.turn, b.move) + cross(a.move, b.turn)};
-}
-
-/// A symmetric 6 x 6 matrix: torque = turning w + coupling v, force = coupling^T w + moving v.
-template <class V>
-struct Inertia {
-  Symmetric3<V> turning, moving;
-  Matrix3<V> coupling;
-
-  BOTSCHOOL_INLINE Screw<V> times(const Screw<V>& a) const {
-    return {turning.times(a.turn) + coupling.times(a.move),
-            coupling.back(a.turn) + moving.times(a.move)};
-  }
-  BOTSCHOOL_INLINE void add(const Inertia& b) {
-    turning.add(b.turning);
-    moving.add(b.moving);
-    coupling.add(b.coupling);
-  }
-  /// Subtracts s * u u^T.
-  BOTSCHOOL_INLINE void reduce(const Screw<V>& u, V s) {
-    const Screw<V> su = s * u;
-    turning.reduce(su.turn, u.turn);
-    moving.reduce(su.move, u.move);
-    coupling.column[0] = coupling.column[0] - u.move.x * su.turn;
-    coupling.column[1] = coupling.column[1] - u.move.y * su.turn;
-    coupling.column[2] = coupling.column[2] - u.move.z * su.turn;
-  }
-};
-
-/// A table in the precision of the lanes.
-template <class T>
-struct Numbers3 {
-  struct One {
-    int parent, motor, along;  ///< along: the axis is x, y or z, forwards or backwards; else 3
-    bool heavy, limited;
-    T sign, place[3], axis[3], centre[3], mass, inertia[6];
-    T low, high, torque, damping, stiffness, armature;
-  };
-  struct Touching {
-    int link;
-    T place[3], radius;
-  };
-  struct Meeting {
-    int link[2];
-    T place[2][3], half[2][3], radius;  ///< radius: of both together
-  };
-  int links, balls, pairs;
-  One link[kMaxLinks];
-  Touching ball[kMaxBalls];
-  Meeting pair[kMaxPairs];
-
-  void read(const Solid& solid) {
-    links = solid.links;
-    for (int i = 0; i < links; ++i) {
-      const Link& from = solid.link[i];
-      One& to = link[i];
-      const double axis[3] = {from.axis.x, from.axis.y, from.axis.z};
-      to.parent = from.parent;
-      to.motor = from.motor;
-      to.along = 3;
-      to.sign = T(1);
-      for (int k = 0; k < 3; ++k) {
-        if (axis[k] != 1 && axis[k] != -1) continue;
-        to.along = k;
-        to.sign = T(axis[k]);
-      }
-      copy(to.place, from.place);
-      copy(to.axis, from.axis);
-      copy(to.centre, from.centre);
-      to.heavy = from.mass > 0;
-      to.mass = T(from.mass);
-      for (int k = 0; k < 6; ++k) to.inertia[k] = T(from.inertia[k]);
-      to.limited = from.hinge.low < from.hinge.high;
-      to.low = T(from.hinge.low);
-      to.high = T(from.hinge.high);
-      to.torque = T(from.hinge.torque);
-      to.damping = T(from.hinge.damping);
-      to.stiffness = T(from.hinge.stiffness);
-      to.armature = T(from.hinge.armature);
-    }
-    const Balls from(solid);
-    balls = from.count;
-    for (int c = 0; c < balls; ++c) {
-      ball[c].link = from.ball[c].link;
-      copy(ball[c].place, from.ball[c].place);
-      ball[c].radius = T(from.ball[c].radius);
-    }
-    pairs = solid.pairs;
-    for (int c = 0; c < pairs; ++c) {
-      const Shape* both[] = {&solid.shape[solid.pair[c].one], &solid.shape[solid.pair[c].other]};
-      for (int k = 0; k < 2; ++k) {
-        pair[c].link[k] = both[k]->link;
-        copy(pair[c].place[k], both[k]->place);
-        copy(pair[c].half[k], both[k]->half);
-      }
-      pair[c].radius = T(both[0]->radius + both[1]->radius);
-    }
-  }
-
- private:
-  static void copy(T* to, const Place& from) {
-    to[0] = T(from.x);
-    to[1] = T(from.y);
-    to[2] = T(from.z);
-  }
-};
 
 template <class T, int W>
 struct Space {
@@ -172,12 +46,12 @@ struct Space {
   struct Part {
     Matrix3<V> turned;  ///< its axes
     Vec origin;
-    Screw<V> axis;                 ///< motion at a rate of 1
-    Screw<V> now, middle;          ///< motion; now: only of links with balls and of their parents
-    Screw<V> carried;              ///< acceleration without a change of the rate
+    Screw<V> axis;         ///< motion at a rate of 1
+    Screw<V> now, middle;  ///< motion; now: only of links with balls and of their parents
+    Screw<V> carried;      ///< acceleration without a change of the rate
     Inertia<V> inertia;
-    Screw<V> force;                ///< that it takes to accelerate not at all
-    Screw<V> answer;               ///< inertia * axis
+    Screw<V> force;   ///< that it takes to accelerate not at all
+    Screw<V> answer;  ///< inertia * axis
     V inverse, pull;
     V bend;  ///< acceleration of the hinge
     Screw<V> acceleration;
@@ -229,8 +103,8 @@ struct Space {
       const V w = attitude[0], x = attitude[1], y = attitude[2], z = attitude[3];
       const V one(T(1)), two(T(2));
       p.turned = {{{one - two * (y * y + z * z), two * (x * y + w * z), two * (x * z - w * y)},
-                  {two * (x * y - w * z), one - two * (x * x + z * z), two * (y * z + w * x)},
-                  {two * (x * z + w * y), two * (y * z - w * x), one - two * (x * x + y * y)}}};
+                   {two * (x * y - w * z), one - two * (x * x + z * z), two * (y * z + w * x)},
+                   {two * (x * z + w * y), two * (y * z - w * x), one - two * (x * x + y * y)}}};
       p.origin = none();
       return;
     }
@@ -254,8 +128,7 @@ struct Space {
         const Vec along = V(share) * axis;
         return along + cosine * (v - along) + sine * cross(axis, v);
       };
-      for (int k = 0; k < 3; ++k)
-        p.turned.column[k] = turned(up.turned.column[k], link.axis[k]);
+      for (int k = 0; k < 3; ++k) p.turned.column[k] = turned(up.turned.column[k], link.axis[k]);
       p.axis.turn = axis;
     }
     p.axis.move = cross(p.origin, p.axis.turn);
@@ -298,7 +171,7 @@ struct Space {
     touch(h);
     for (int c = 0; c < numbers.pairs; ++c) meet(numbers.pair[c], h);
     for (int i = numbers.links - 1; i > 0; --i) fold(i, action, h);
-    solve();
+    part[0].acceleration = part[0].inertia.solve(part[0].force);
     const T half = h * T(0.5);
     for (int i = 1; i < numbers.links; ++i) {
       unfold(i);
@@ -307,8 +180,8 @@ struct Space {
     weigh_balls();
     const Screw<V> middle = speed + change;
     const Screw<V>& acceleration = part[0].acceleration;
-    change = V(half) * Screw<V>{acceleration.turn,
-                                acceleration.move + cross(middle.turn, middle.move)};
+    change =
+        V(half) * Screw<V>{acceleration.turn, acceleration.move + cross(middle.turn, middle.move)};
     speed = speed + V(T(2)) * change;
     for (int i = 1; i < numbers.links; ++i) rate[i] += V(T(2)) * rate_change[i];
   }
@@ -365,7 +238,7 @@ struct Space {
     const Vec x = V(own[0]) * r[0] + V(own[3]) * r[1] + V(own[4]) * r[2];
     const Vec y = V(own[3]) * r[0] + V(own[1]) * r[1] + V(own[5]) * r[2];
     const Vec z = V(own[4]) * r[0] + V(own[5]) * r[1] + V(own[2]) * r[2];
-    const auto about = [&](V Vec::*a, V Vec::*b) {
+    const auto about = [&](V Vec::* a, V Vec::* b) {
       return x.*a * r[0].*b + y.*a * r[1].*b + z.*a * r[2].*b;
     };
     constexpr auto X = &Vec::x, Y = &Vec::y, Z = &Vec::z;
@@ -426,7 +299,7 @@ struct Space {
       const Vec force = push * normal - share * drag;
       p.force.move = p.force.move - force;
       p.force.turn = p.force.turn - cross(r, force);
-      resist(p.inertia, r, normal, V(h) * firm, V(h) * share * firm);
+      p.inertia.resist(r, normal, V(h) * firm, V(h) * share * firm);
       touched.push = push;
       touched.answer = V(h) * firm;
       touched.normal = normal;
@@ -478,29 +351,8 @@ struct Space {
       const Vec force = k == 0 ? push : V(T(-1)) * push;
       p[k]->force.move = p[k]->force.move - force;
       p[k]->force.turn = p[k]->force.turn - cross(r, force);
-      resist(p[k]->inertia, r, normal, V(h) * firm, zero);
+      p[k]->inertia.resist(r, normal, V(h) * firm, zero);
     }
-  }
-
-  /// Adds resistance to a point's motion across and along the ground.
-  static BOTSCHOOL_INLINE void resist(Inertia<V>& inertia, Vec r, Vec normal, V across, V along) {
-    const V extra = across - along;
-    const Vec n = extra * normal;
-    Symmetric3<V> d = {along + n.x * normal.x, along + n.y * normal.y, along + n.z * normal.z,
-                       n.x * normal.y,         n.x * normal.z,         n.y * normal.z};
-    inertia.moving.add(d);
-    // columns of r x d
-    const Vec x = cross(r, Vec{d.xx, d.xy, d.xz}), y = cross(r, Vec{d.xy, d.yy, d.yz}),
-              z = cross(r, Vec{d.xz, d.yz, d.zz});
-    inertia.coupling.add({{x, y, z}});
-    // (r x d) x^T r
-    Symmetric3<V>& t = inertia.turning;
-    t.xx += r.y * z.x - r.z * y.x;
-    t.yy += r.z * x.y - r.x * z.y;
-    t.zz += r.x * y.z - r.y * x.z;
-    t.xy += r.z * x.x - r.x * z.x;
-    t.xz += r.x * y.x - r.y * x.x;
-    t.yz += r.x * y.y - r.y * x.y;
   }
 
   /// Adds to its parent what link i, and all that hangs on it, weighs there.
@@ -532,38 +384,6 @@ struct Space {
     const Screw<V> force = p.inertia.times(p.carried) + (p.pull * p.inverse) * p.answer;
     up.force = up.force + p.force + force;
     up.inertia.add(p.inertia);
-  }
-
-  /// The root's acceleration, by the factors L D L^T of its inertia.
-  void solve() {
-    const Inertia<V>& m = part[0].inertia;
-    const Symmetric3<V>&a = m.turning, &c = m.moving;
-    const Vec* b = m.coupling.column;
-    V full[6][6] = {{a.xx},
-                    {a.xy, a.yy},
-                    {a.xz, a.yz, a.zz},
-                    {b[0].x, b[0].y, b[0].z, c.xx},
-                    {b[1].x, b[1].y, b[1].z, c.xy, c.yy},
-                    {b[2].x, b[2].y, b[2].z, c.xz, c.yz, c.zz}};
-    const Screw<V>& f = part[0].force;
-    V y[6] = {-f.turn.x, -f.turn.y, -f.turn.z, -f.move.x, -f.move.y, -f.move.z};
-    V low[6][6], inverse[6];
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j <= i; ++j) {
-        V s = full[i][j];
-        for (int k = 0; k < j; ++k) s -= low[i][k] * full[j][k];
-        full[i][j] = s;
-        if (i == j)
-          inverse[i] = V(T(1)) / s;
-        else
-          low[i][j] = s * inverse[j];
-      }
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < i; ++j) y[i] -= low[i][j] * y[j];
-    for (int i = 0; i < 6; ++i) y[i] = y[i] * inverse[i];
-    for (int i = 5; i >= 0; --i)
-      for (int j = i + 1; j < 6; ++j) y[i] -= low[j][i] * y[j];
-    part[0].acceleration = {{y[0], y[1], y[2]}, {y[3], y[4], y[5]}};
   }
 
   /// Acceleration of link i, after its parent's.

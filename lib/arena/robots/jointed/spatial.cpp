@@ -6,12 +6,10 @@ namespace botschool {
 namespace {
 
 /// For tests: a ball, and a box 0.4 m long, 0.2 m wide and 0.1 m high.
-constexpr Link kBallLinks[]{
-    {"ball", -1, {}, {}, {}, -1, 2, {}, {0.008, 0.008, 0.008, 0, 0, 0}}};
+constexpr Link kBallLinks[]{{"ball", -1, {}, {}, {}, -1, 2, {}, {0.008, 0.008, 0.008, 0, 0, 0}}};
 constexpr Shape kBallShapes[]{{0, {}, {}, 0.1}};
 constexpr Solid kBall{"ball", kBallLinks, kBallShapes, nullptr, 1, 1, 0, 0, 0, {}};
-constexpr Link kBoxLinks[]{
-    {"box", -1, {}, {}, {}, -1, 3, {}, {0.0125, 0.0425, 0.05, 0, 0, 0}}};
+constexpr Link kBoxLinks[]{{"box", -1, {}, {}, {}, -1, 3, {}, {0.0125, 0.0425, 0.05, 0, 0, 0}}};
 constexpr Shape kBoxShapes[]{{0, {0.2, 0.1, 0}, {0, 0, 0.05}, 0},
                              {0, {0.2, -0.1, 0}, {0, 0, 0.05}, 0},
                              {0, {-0.2, 0.1, 0}, {0, 0, 0.05}, 0},
@@ -48,7 +46,8 @@ class Looked final : public SpatialBody {
     std::vector<Screw<One>> motion(size);  // at a speed of 1 of each coordinate
     const One zero(0), one(1);
     for (int k = 0; k < 3; ++k) {
-      motion[k] = {{zero, zero, zero}, {k == 0 ? one : zero, k == 1 ? one : zero, k == 2 ? one : zero}};
+      motion[k] = {{zero, zero, zero},
+                   {k == 0 ? one : zero, k == 1 ? one : zero, k == 2 ? one : zero}};
       body->put(0);
       motion[3 + k] = {body->part[0].turned.column[k], {zero, zero, zero}};
     }
@@ -127,9 +126,8 @@ class Looked final : public SpatialBody {
     V motor[kMaxLinks];
     for (int i = 0; i < solid_.motors; ++i) motor[i] = T(action[i]);
     body->run(motor, steps, T(h));
-    store_state(*body, rows_, [&](int row, V value) {
-      state[row] = value[0] + (row < 2 ? state[row] : 0.0);
-    });
+    store_state(*body, rows_,
+                [&](int row, V value) { state[row] = value[0] + (row < 2 ? state[row] : 0.0); });
   }
 
   Solid solid_;

@@ -35,8 +35,8 @@ struct Terrain {
     const V way = (px - number(kStepPlace)) * number(1 / kStepWidth);
     const V climbed = smaller(larger(way, zero), one);
     V height = number(ground.slope) * px + number(ground.step) * climbed;
-    V ahead = number(ground.slope) + if_positive(climbed * (one - climbed),
-                                                 number(ground.step / kStepWidth), zero);
+    V ahead = number(ground.slope) +
+              if_positive(climbed * (one - climbed), number(ground.step / kStepWidth), zero);
     V sideways = zero;
     for (int w = 0; w < 2; ++w) {
       V s[2], c[2];
