@@ -254,6 +254,9 @@ LIMITS = {
         for body in ("Hopper", "Walker2D", "HalfCheetah")
         for version in (0, 5)
     },
+    **{f"Spatial{body}-v{version}": 1000 for body in ("Ant", "Humanoid") for version in (0, 5)},
+    "SpatialHumanoidStandup-v0": 1000,
+    "SpatialBody-v0": 1000,
 }
 
 
