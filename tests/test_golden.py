@@ -7,8 +7,10 @@ episodes together, or when their algorithm came. They must never change.
 
 from __future__ import annotations
 
+import ast
 import hashlib
 import json
+import os
 import platform
 import subprocess
 import sys
@@ -18,6 +20,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import botschool
 from running import TESTS
 
 GOLDEN = json.loads((TESTS / "golden.json").read_text(encoding="utf-8"))
@@ -182,14 +185,76 @@ def points(folder: Path):
 
 # numpy draws normal numbers, and Gymnasium moves its car, with functions of the system's C library
 @pytest.mark.skipif(
-    not (sys.platform == "linux" and platform.machine() == "x86_64"),
-    reason="hashes are those of Linux on x86-64",
+    not (sys.platform == "linux" and platform.machine() in ("x86_64", "aarch64")),
+    reason="hashes are those of Linux on x86-64 and ARM",
 )
 @pytest.mark.parametrize("name", RUNS)
 def test_files_are_as_ever(name, command, tmp_path):
     path, arguments = write(name, tmp_path)
     code, _, errors = command("es", "-f", path, *arguments, "-o", tmp_path / "results")
     assert code == 0, errors
+    assert hashes(tmp_path / "results") == GOLDEN[name]
+
+
+PORTABLE = ("evolution/algorithms", "rl/native")
+"""Rooms of Python code that decides bits of results, and calls no function of the C library."""
+EXACT = {
+    "sqrt",
+    "ceil",
+    "floor",
+    "frexp",
+    "ldexp",
+    "fsum",
+    "isfinite",
+    "isnan",
+    "inf",
+    "nan",
+    "prod",
+}
+
+
+def calls_of_the_c_library(text: str) -> list[str]:
+    """Return what in a module's text is computed by functions whose last bits differ."""
+    found = []
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
+            base = node.left.value if isinstance(node.left, ast.Constant) else None
+            if type(base) is not int and "config.cells" not in ast.unparse(node):
+                found.append(ast.unparse(node))
+        elif isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+            libm = {"exp", "log", "log2", "log10", "log1p", "expm1", "power", "float_power"}
+            libm |= {"sin", "cos", "tan", "tanh", "sinh", "cosh", "hypot", "cbrt", "logaddexp"}
+            if node.value.id == "np" and node.attr in libm:
+                found.append(ast.unparse(node))
+            if node.value.id == "math" and node.attr not in EXACT:
+                found.append(ast.unparse(node))
+    return found
+
+
+@pytest.mark.parametrize("room", PORTABLE)
+def test_results_call_no_function_whose_bits_differ_between_processors(room):
+    files = sorted((Path(botschool.__file__).parent / room).glob("*.py"))
+    found = {path.name: calls_of_the_c_library(path.read_text("utf-8")) for path in files}
+    assert found and {name: calls for name, calls in found.items() if calls} == {}
+
+
+@pytest.mark.parametrize(
+    "line", ["x ** 2", "np.exp(x)", "math.pow(x, 2)", "np.log(x)", "0.5 ** n", "math.hypot(x, y)"]
+)
+def test_such_functions_are_seen(line):
+    assert calls_of_the_c_library(line)
+
+
+@pytest.mark.skipif(
+    not (sys.platform == "linux" and platform.machine() == "x86_64"),
+    reason="glibc's tunables choose instructions on x86-64",
+)
+def test_a_processor_without_fused_multiplication_gives_the_same_bits(tmp_path):
+    name = "pendulum, CMA-ES, normalised"
+    path, arguments = write(name, tmp_path)
+    tunables = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4"}
+    command = [sys.executable, "-m", "botschool", "es", "-f", path, *arguments]
+    subprocess.run([*command, "-o", tmp_path / "results"], check=True, env=os.environ | tunables)
     assert hashes(tmp_path / "results") == GOLDEN[name]
 
 

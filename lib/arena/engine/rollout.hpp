@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <limits>
 
 #include "../../evonet/brain.hpp"
 #include "kernel.hpp"
@@ -197,7 +198,9 @@ class Rollout {
     for (int l = 0; l < L; ++l) {
       if (!ended_[l] || job_[l] < 0) continue;
       const std::ptrdiff_t job = job_[l];
-      jobs_.fitness[job] = total_[l];
+      // the sign of a NaN differs between processors
+      jobs_.fitness[job] =
+          total_[l] == total_[l] ? total_[l] : std::numeric_limits<double>::quiet_NaN();
       jobs_.steps[job] = steps_[l];
       if (wants_moments(job)) {
         --collecting_;

@@ -46,7 +46,7 @@ def shift(fitness: np.ndarray, samples: np.ndarray, ntop: int) -> np.ndarray:
     best = np.argsort(-pairs.max(axis=1), kind="stable")[:ntop]
     counted = pairs[best].ravel().tolist()
     mean = math.fsum(counted) / len(counted)
-    spread = math.sqrt(math.fsum((one - mean) ** 2 for one in counted) / len(counted))
+    spread = math.sqrt(math.fsum(d * d for d in [one - mean for one in counted]) / len(counted))
     if not spread > 0:  # all are equal: there is no direction
         return np.zeros(samples.shape[1])
     weights = (pairs[best, 0] - pairs[best, 1]) / (len(best) * spread)

@@ -64,8 +64,8 @@ class Settings:
         better, worse = np.maximum(raw, 0), np.maximum(-raw, 0)
         mueff, mueff_worse = effective(better), effective(worse)
         cc = (4 + mueff / n) / (n + 4 + 2 * mueff / n)  # (56)
-        c1 = 2 / ((n + 1.3) ** 2 + mueff)  # (57)
-        cmu = 2 * (0.25 + mueff + 1 / mueff - 2) / ((n + 2) ** 2 + mueff)  # (58)
+        c1 = 2 / ((n + 1.3) * (n + 1.3) + mueff)  # (57)
+        cmu = 2 * (0.25 + mueff + 1 / mueff - 2) / ((n + 2) * (n + 2) + mueff)  # (58)
         if diagonal:  # fewer numbers are learned, so learning is faster: Ros and Hansen, section 3
             c1, cmu = (n + 2) / 3 * c1, (n + 2) / 3 * cmu
         cmu = min(1 - c1, cmu)
@@ -90,7 +90,7 @@ def total(values: np.ndarray) -> float:
 
 def effective(weights: np.ndarray) -> float:
     """Return how many equal weights would average as much: (sum w)^2 / sum w^2."""
-    return total(weights) ** 2 / total(weights * weights)
+    return total(weights) * total(weights) / total(weights * weights)
 
 
 class FullMatrix:

@@ -60,7 +60,7 @@ def adam(
         descent += DECAY * centre
     elif wdecay == 2:
         descent += DECAY * np.sign(centre)
-    return BETA1 * m + (1 - BETA1) * descent, BETA2 * v + (1 - BETA2) * descent**2
+    return BETA1 * m + (1 - BETA1) * descent, BETA2 * v + (1 - BETA2) * (descent * descent)
 
 
 def climb(

@@ -52,13 +52,13 @@ def exponential(z: np.ndarray, weights: np.ndarray) -> np.ndarray:
     inner = gram * weights
     largest = float(np.abs(inner).sum(axis=1).max())  # no eigenvalue is larger
     halvings = max(0, math.frexp(largest)[1])
-    inner = inner * 0.5**halvings
+    inner = inner * math.ldexp(1, -halvings)
     term = np.eye(len(z))
     total = term.copy()
     for k in range(2, TERMS + 1):
         term = product(term, inner) / k
         total += term
-    m = 0.5**halvings * weights[:, None] * total
+    m = math.ldexp(1, -halvings) * weights[:, None] * total
     for _ in range(halvings):
         m = 2 * m + product(product(m, gram), m)
     return m

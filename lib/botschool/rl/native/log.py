@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from botschool import linear
 from botschool.evolution.events import VERSION, event, record
 from botschool.output import cannot_write
 from botschool.rl.native.ppo import PPO
@@ -68,7 +69,7 @@ class Log:
         named["train/policy_gradient_loss"] = found["policy_loss"]
         named["train/n_updates"] = float(ppo.core.updates * ppo.hyperparameters.n_epochs)
         if std is not None:
-            named["train/std"] = float(np.exp(std).mean())
+            named["train/std"] = float(linear.exp(std).mean())
         return named
 
     def add(self, values: dict[str, float]) -> None:

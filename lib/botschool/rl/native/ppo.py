@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from botschool import _core
+from botschool import _core, linear
 from botschool.errors import BotschoolError
 from botschool.problems.native import INFOS
 from botschool.rl.native import problem
@@ -180,7 +180,7 @@ class PPO:
         loss = found["policy_loss"] + h.vf_coef * found["value_loss"]
         return Loss(
             loss=loss - h.ent_coef * found["entropy"],
-            ratios=np.exp(found["log_probs"] - _vector(batch.log_probs)),
+            ratios=linear.exp(found["log_probs"] - _vector(batch.log_probs)),
             gradients=self.named(found["gradient"]),
             **found,
         )
