@@ -64,7 +64,7 @@ notebook-ex%: $(READY) $$(call extras,$$*) $(if $(filter installed,$(READY)),,.v
 WORKERS ?= auto
 PYTEST := $(BIN)/python -m pytest -q -n $(WORKERS) --dist worksteal
 
-.PHONY: book test test-long fuzz check-course nbgrader figures skeletons bench results lint format sanitize
+.PHONY: book test test-long fuzz check-course check-arm nbgrader figures skeletons bench results lint format sanitize
 test: .venv/.tests ## the tests that take seconds
 	@$(PYTEST)
 
@@ -93,6 +93,9 @@ nbgrader: .venv/.tests ## a course folder for nbgrader in results/nbgrader
 checked = $(patsubst ex%,%,$(filter ex%,$(ONLY)))
 check-course: $(if $(checked),.venv/.pytest $(foreach n,$(checked),$(call extras,$(n))),.venv/.tests) ## prove that exercises and grading work (two hours on two cores); ONLY=ex03: those of exercise 3; SECRETS=5: what depends on the grading seeds
 	@$(PYTEST) -m course tests/course$(if $(SECRETS),/test_secrets.py --secrets $(SECRETS)) $(if $(ONLY),-k "$(ONLY)")
+
+check-arm: .venv/.tests ## play the recorded runs on an emulated ARM processor, and compile for macOS and Windows
+	@tools/setup.sh check-arm
 
 bench: .venv/.module ## the speed of evaluation beside gymnax, EnvPool and Gymnasium
 	@$(BIN)/python tests/bench/run.py

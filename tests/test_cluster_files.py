@@ -99,8 +99,7 @@ def test_the_dockerfile_copies_what_exists():
         line.split()[1:-1] for line in lines if line.startswith("COPY") and "--from" not in line
     ]
     assert copied and all((ROOT / source).exists() for sources in copied for source in sources)
-    extras = set(re.findall(r"\[([\w,]+)\]", "\n".join(lines)))
-    assert extras == {"cluster,pybullet"}
+    assert any("botschool[cluster" in line and ",pybullet" in line for line in lines)
 
 
 @posix

@@ -449,4 +449,5 @@ case $1 in
     book) build_book ;;
     web) build_web ;;
     sanitize) build_sanitized ;;
+    check-arm) install 'botschool[web]' && exec tools/check_arm.sh ;;
 esac
