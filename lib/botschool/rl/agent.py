@@ -20,6 +20,7 @@ from botschool.rl.folder import RunFolder
 from botschool.rl.model import build
 from botschool.rl.policies import check_trusted
 from botschool.rl.weights import Normalise
+from botschool.seeds import libraries_kept, seed_libraries
 
 if TYPE_CHECKING:
     from stable_baselines3.common.base_class import BaseAlgorithm
@@ -159,8 +160,16 @@ def play(
 
     Return the returns (n,), float64, and the lengths (n,), int64.
     """
+    with libraries_kept():
+        return _play(agent, envs, seeds)
+
+
+def _play(
+    agent: Agent | NativeAgent, envs: Sequence[gymnasium.Env], seeds: Sequence[int]
+) -> tuple[np.ndarray, np.ndarray]:
     n = len(envs)
-    observations = [env.reset(seed=seed)[0] for env, seed in zip(envs, seeds, strict=True)]
+    pairs = zip(envs, seeds, strict=True)
+    observations = [env.reset(seed=seed_libraries(seed))[0] for env, seed in pairs]
     returns, lengths = np.zeros(n), np.zeros(n, dtype=np.int64)
     running, starts, state = np.ones(n, dtype=bool), np.ones(n, dtype=bool), None
     while running.any():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import time
 from collections import deque
 from collections.abc import Callable
@@ -108,6 +109,26 @@ class PostEvaluation(BaseCallback):
                 np.concatenate([old.lengths, new.lengths]),
             )
         self.found = new
+
+
+class Patience(BaseCallback):
+    """Let hindsight experience replay begin to learn once an episode has ended, not before."""
+
+    ended = False
+
+    def _on_step(self) -> bool:
+        if not self.ended:
+            self.model.learning_starts = max(self.model.learning_starts, self.num_timesteps)
+            self.ended = bool(np.any(self.locals["dones"]))
+        return True
+
+    def _on_training_end(self) -> None:
+        if not self.ended:
+            print(
+                f"note: no episode ended within {self.num_timesteps} steps, so her has learned "
+                "nothing: give it more --steps, or end episodes earlier",
+                file=sys.stderr,
+            )
 
 
 class Indicators(BaseCallback):

@@ -16,6 +16,7 @@ from gymnasium import spaces
 
 from botschool.errors import BotschoolError, said
 from botschool.inifile import shown
+from botschool.problems.spaces import has_limits, is_image
 from botschool.rl import spellings
 from botschool.rl.environments import described, make
 from botschool.rl.native import choosing
@@ -38,6 +39,9 @@ ACTIONS = {
 
 CONTRIB = {"trpo": "TRPO", "qrdqn": "QRDQN", "tqc": "TQC", "ars": "ARS"}
 """Classes in sb3-contrib, the part of Stable-Baselines3 for newer algorithms."""
+
+SCALED = ("sac", "td3", "ddpg", "tqc", "ars", "her")
+"""Algorithms whose networks give numbers from -1 to 1, to be scaled to the limits of actions."""
 
 GOAL_PARTS = {"observation", "achieved_goal", "desired_goal"}
 
@@ -106,8 +110,8 @@ def choose(
     env_made = make(env, wrappers)
     _check_spaces(algo, env, env_made)
     require("torch", "stable_baselines3")
-    policy = policy or ("cnn" if _sees_images(env_made) else "mlp")
-    if policy in WITH_IMAGES and not _sees_images(env_made):
+    policy = policy or ("cnn" if is_image(env_made.observation_space) else "mlp")
+    if policy in WITH_IMAGES and not is_image(env_made.observation_space):
         raise BotschoolError(
             f"{env} shows no images, so it cannot be trained with a {policy} policy (its "
             f"observations are {described(env_made.observation_space)}): leave out --policy."
@@ -157,7 +161,7 @@ def _share_batches(entry: dict[str, Any], model_class: type[BaseAlgorithm], envs
 
 
 def _normalize(given: dict[str, Any], usual: bool, env: gymnasium.Env, policy: str) -> bool:
-    images = policy in WITH_IMAGES or (is_own(policy) and _sees_images(env))
+    images = policy in WITH_IMAGES or (is_own(policy) and is_image(env.observation_space))
     possible = isinstance(env.observation_space, spaces.Box) and not images
     wanted = given.get("normalize", usual and possible)
     if not isinstance(wanted, bool):
@@ -179,18 +183,16 @@ def _check_spaces(algo: str, name: str, env: gymnasium.Env) -> None:
             f"{algo} cannot be trained on {name}, whose actions are "
             f"{described(env.action_space)}: {remedy}."
         )
+    own = env.env.action_space
+    if algo in SCALED and isinstance(own, spaces.Box) and not has_limits(own):
+        raise BotschoolError(
+            f"{algo} scales its actions to their limits, but some actions of {name} have none: use "
+            "--algo ppo, or give the environment's action_space limits."
+        )
     if algo == "her" and not _has_goals(env):
         raise BotschoolError(
             f"her cannot be trained on {name}, which has no goals: its observations must be a Dict "
             f"of {', '.join(sorted(GOAL_PARTS))}, and it needs compute_reward, as FetchReach-v4."
-        )
-    parts = getattr(env.observation_space, "spaces", {})
-    if isinstance(env.observation_space, spaces.Tuple) or any(
-        isinstance(part, (spaces.Dict, spaces.Tuple)) for part in dict(parts).values()
-    ):
-        raise BotschoolError(
-            f"{name} has nested observations, which no policy here reads: add --wrapper "
-            "FlattenObservation."
         )
 
 
@@ -198,15 +200,8 @@ def _has_goals(env: gymnasium.Env) -> bool:
     space = env.observation_space
     return (
         isinstance(space, spaces.Dict)
-        and space.keys() >= GOAL_PARTS
-        and env.has_wrapper_attr("compute_reward")
-    )
-
-
-def _sees_images(env: gymnasium.Env) -> bool:
-    space = env.observation_space
-    return (
-        isinstance(space, spaces.Box) and len(space.shape) == 3 and space.dtype == np.dtype("uint8")
+        and space.keys() >= GOAL_PARTS - {"observation"}  # it may be a nest of its own
+        and env.env.has_wrapper_attr("compute_reward")
     )
 
 

@@ -13,6 +13,7 @@ from botschool.problems.transition import Transition
 from botschool.rl.agent import Agent, play, stacked
 from botschool.rl.environments import make
 from botschool.rl.folder import RunFolder
+from botschool.seeds import seed_libraries
 from botschool.terminal import readable
 
 NEW_EPISODES_SEED = 200_000
@@ -56,7 +57,7 @@ class Player:
         """Play episode `number` (from 0) and yield each step with its picture."""
         env = self._make(render_mode="rgb_array")
         try:
-            observation, _ = env.reset(seed=self._seed(number))
+            observation, _ = env.reset(seed=seed_libraries(self._seed(number)))
             state, total, step, ended = None, 0.0, 0, False
             while not ended:
                 seen, starts = observation, np.array([step == 0])

@@ -27,6 +27,17 @@ if TYPE_CHECKING:
 
     from botschool.rl.callbacks import PostEvaluation
 
+_NOT_FINITE = (
+    "the network's outputs are no longer usable numbers, so lower learning_rate or max_grad_norm"
+)
+BREAKDOWNS = {
+    "Expected parameter": _NOT_FINITE,  # torch, about the action's distribution
+    "histogram is empty": _NOT_FINITE,  # TensorBoard, about advantages or actions
+    "Unable to sample before the end": "no episode fits into the replay buffer, so give a larger "
+    "buffer_size",
+}
+"""Messages of libraries when a training breaks down, and what to do."""
+
 
 def train(
     algo: str,
@@ -113,11 +124,12 @@ def learn(
 def _learn(model: BaseAlgorithm, watching: PostEvaluation, events: Path | None) -> None:
     from stable_baselines3.common.logger import TensorBoardOutputFormat, configure
 
-    from botschool.rl.callbacks import Indicators, Stopped
+    from botschool.rl.callbacks import Indicators, Patience, Stopped
 
-    folder = watching.run.path
+    folder, algo = watching.run.path, watching.settings.algo
     # ars reports whole episodes only
-    steps = [] if watching.settings.algo == "ars" else [Indicators()]
+    steps = [] if algo == "ars" else [Indicators()]
+    steps += [Patience()] if algo == "her" else []
     try:
         model.set_logger(configure(str(folder), ["csv", "tensorboard"]))
         if events is not None:
@@ -129,15 +141,14 @@ def _learn(model: BaseAlgorithm, watching: PostEvaluation, events: Path | None) 
         model.logger.close()
     except OSError as error:
         raise cannot_write(folder, error.strerror or str(error)) from error
-    except ValueError as error:
-        # torch's message about the action's distribution
-        if "Expected parameter" not in str(error):
-            raise
-        raise BotschoolError(
-            f"The training in {folder} broke down after {model.num_timesteps} steps: the "
-            "network's outputs are no longer usable numbers, so lower learning_rate or "
-            "max_grad_norm."
-        ) from error
+    except (ValueError, RuntimeError) as error:
+        for message, remedy in BREAKDOWNS.items():
+            if message in str(error):
+                raise BotschoolError(
+                    f"The training in {folder} broke down after {model.num_timesteps} steps: "
+                    f"{remedy}."
+                ) from error
+        raise
 
 
 @contextmanager
@@ -162,10 +173,10 @@ def _training_env(settings: Settings) -> Iterator[VecEnv]:
 def _monitored(name: str, wrappers: str, training_wrappers: str) -> gymnasium.Env:
     from stable_baselines3.common.monitor import Monitor
 
-    from botschool.rl.environments import make
+    from botschool.rl.environments import Brief, make
     from botschool.wrappers import parse
 
-    env = Monitor(make(name, wrappers))
+    env = Monitor(Brief(make(name, wrappers)))
     for wrapper in parse(training_wrappers):
         env = wrapper.around(env, name)
     return env

@@ -1,0 +1,220 @@
+"""Spaces reach learners as they reach evolution: every action is legal, every observation read."""
+
+from typing import ClassVar
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium import spaces
+
+from botschool.errors import BotschoolError
+from botschool.problems.spaces import PlainObservations, performed, plain_actions
+from botschool.rl.environments import make
+
+torch = pytest.importorskip("torch")
+pytest.importorskip("stable_baselines3")
+
+POINT = spaces.Box(-1, 1, (2,), np.float32)
+INFINITE = np.inf
+ACTIONS = {
+    "discrete": spaces.Discrete(3, start=-1),
+    "multidiscrete": spaces.MultiDiscrete([3, 2], start=[-1, 4]),
+    "table": spaces.MultiDiscrete([[3, 2], [2, 4]], start=[[-1, 4], [0, 9]]),
+    "binary": spaces.MultiBinary([2, 2]),
+    "integers": spaces.Box(-1, 1, (2,), np.int32),
+    "bytes": spaces.Box(0, 255, (2,), np.uint8),
+    "double": spaces.Box(np.array([-0.1, 0.7]), np.array([0.2, 0.9]), dtype=np.float64),
+    "scalar": spaces.Box(-1, 1, (), np.float32),
+    "matrix": spaces.Box(-0.1, 0.1, (2, 2), np.float64),
+    "unbounded": spaces.Box(-INFINITE, INFINITE, (2,), np.float32),
+    "half bounded": spaces.Box(
+        np.array([-INFINITE, -1]), np.array([1, INFINITE]), dtype=np.float64
+    ),
+}
+OBSERVATIONS = {
+    "discrete": spaces.Discrete(3, start=5),
+    "below 0": spaces.Discrete(3, start=-1),
+    "table": ACTIONS["table"],
+    "binary": spaces.MultiBinary([2, 2]),
+    "integers": spaces.Box(-3, 3, (2,), np.int32),
+    "scalar": spaces.Box(-1, 1, (), np.float32),
+    "nest": spaces.Dict(
+        a=spaces.Tuple([spaces.Discrete(3, start=2), spaces.Dict(x=POINT, t=spaces.Text(3))]),
+        b=spaces.MultiDiscrete([[2, 2]], start=[[1, -1]]),
+    ),
+    "names": spaces.Dict({"type": POINT, "a.b": POINT, "a/b": spaces.Discrete(2, start=1)}),
+}
+QUICK = {"n_steps": 16, "batch_size": 16, "n_epochs": 1}
+
+
+class Asserting(gymnasium.Env):
+    """Refuses actions outside its space, and notes them."""
+
+    metadata: ClassVar = {"render_modes": ["rgb_array"]}
+    performed: ClassVar[list] = []
+
+    def __init__(self, acts=POINT, sees=POINT, render_mode=None):
+        self.action_space, self.observation_space = acts, sees
+        self.render_mode, self.steps = render_mode, 0
+
+    def reset(self, seed=None, options=None):
+        super().reset(seed=seed)
+        self.steps = 0
+        self.observation_space.seed(seed)
+        return self.observation_space.sample(), {}
+
+    def step(self, action):
+        assert self.action_space.contains(action), f"illegal {action!r}"
+        Asserting.performed.append(np.ravel(action))
+        self.steps += 1
+        return self.observation_space.sample(), 1.0, False, self.steps >= 8, {}
+
+
+class Faulty(Asserting):
+    """Breaks one rule."""
+
+    def __init__(self, fault, render_mode=None):
+        super().__init__(render_mode=render_mode)
+        self.fault = fault
+
+    def reset(self, seed=None, options=None):
+        observation, info = super().reset(seed=seed)
+        return {
+            "alone": observation,
+            "three": (observation, info, 1),
+            "info": (observation, 3),
+            "no info": (observation, None),
+        }.get(self.fault, (observation, info))
+
+    def step(self, action):
+        observation, _, *ends, info = super().step(action)
+        reward = {"huge": 1e200, "infinite": np.inf}.get(self.fault, 1.0)
+        return observation, reward, *ends, None if self.fault == "no info" else info
+
+
+class Unseeded(Asserting):
+    """Takes no seed."""
+
+    def reset(self):
+        return self.observation_space.sample(), {}
+
+
+for name, space in ACTIONS.items():
+    gymnasium.register(f"Acts-{name.replace(' ', '')}-v0", Asserting, kwargs={"acts": space})
+for name, space in OBSERVATIONS.items():
+    gymnasium.register(f"Sees-{name.replace(' ', '')}-v0", Asserting, kwargs={"sees": space})
+gymnasium.register("Faulty-v0", Faulty, disable_env_checker=True, order_enforce=False)
+gymnasium.register("Unseeded-v0", Unseeded, disable_env_checker=True, order_enforce=False)
+
+
+def trained(env, folder, algo="ppo", **params):
+    from botschool.rl.player import Player
+    from botschool.rl.training import train
+
+    run = train(
+        algo, env, folder, params=params or QUICK, steps=48, evaluations=1, episodes=2, engine="sb3"
+    )
+    player = Player(run.best)
+    player.play(2)
+    return player
+
+
+@pytest.mark.parametrize("name", ACTIONS)
+def test_a_learner_gives_actions_of_the_space(name, tmp_path):
+    Asserting.performed.clear()
+    player = trained(f"Acts-{name.replace(' ', '')}-v0", tmp_path)
+    assert player.returns == [8.0, 8.0] and len(Asserting.performed) > 48
+
+
+def test_every_choice_is_reached(tmp_path):
+    """Counted from the space's own start, as in botschool es."""
+    Asserting.performed.clear()
+    trained("Acts-multidiscrete-v0", tmp_path)
+    found = np.array(Asserting.performed)
+    assert set(found[:, 0]) == {-1, 0, 1} and set(found[:, 1]) == {4, 5}
+
+
+@pytest.mark.parametrize("name", OBSERVATIONS)
+def test_a_learner_reads_the_observations(name, tmp_path):
+    assert trained(f"Sees-{name.replace(' ', '')}-v0", tmp_path).returns == [8.0, 8.0]
+
+
+@pytest.mark.parametrize("name", ["unbounded", "half bounded"])
+def test_algorithms_that_scale_actions_need_limits(name, tmp_path):
+    with pytest.raises(BotschoolError, match=r"have none: use --algo ppo, or give .* limits\.$"):
+        trained(f"Acts-{name.replace(' ', '')}-v0", tmp_path, "sac", learning_starts=10)
+
+
+@pytest.mark.parametrize("space", [*OBSERVATIONS.values(), *ACTIONS.values()])
+def test_plain_spaces_hold_what_is_translated(space):
+    space.seed(1)
+    plain = PlainObservations(space, "it")
+    for _ in range(20):
+        assert plain.space.contains(plain(space.sample()))
+    if isinstance(space, (spaces.Dict, spaces.Tuple)):
+        return
+    acted = plain_actions(space)
+    acted.seed(1)
+    for _ in range(20):
+        assert space.contains(performed(acted.sample(), space))
+
+
+@pytest.mark.parametrize("fault, says", [
+    ("alone", "reset does not return (observation, info)"),
+    ("three", "reset does not return (observation, info)"),
+    ("info", "reset does not return (observation, info)"),
+    ("huge", "its reward was 1e+200"),
+    ("infinite", "its reward was inf"),
+])  # fmt: skip
+def test_broken_rules_are_one_sentence(fault, says):
+    env = make("Faulty-v0", fault=fault)
+    with pytest.raises(BotschoolError) as caught:
+        env.reset(seed=1)
+        env.step(env.action_space.sample())
+    assert says in str(caught.value) and "mend the environment." in str(caught.value)
+
+
+def test_no_info_counts_as_an_empty_one():
+    env = make("Faulty-v0", fault="no info")
+    assert env.reset(seed=1)[1] == {} and env.step(env.action_space.sample())[4] == {}
+
+
+def test_a_reset_without_a_seed_is_told():
+    with pytest.raises(BotschoolError, match="reset must take seed and options"):
+        make("Unseeded-v0").reset(seed=1)
+
+
+@pytest.mark.parametrize("option", ["name", "wrapped", "wrappers"])
+def test_options_of_any_name_reach_the_constructor(option):
+    class Named(Asserting):
+        def __init__(self, render_mode=None, **given):
+            super().__init__(render_mode=render_mode)
+            self.given = given
+
+    gymnasium.register("Named-v0", Named)
+    try:
+        assert make("Named-v0", **{option: "hilly"}).unwrapped.given == {option: "hilly"}
+    finally:
+        del gymnasium.registry["Named-v0"]
+
+
+class Goals(Asserting):
+    """Its episodes are longer than the steps before learning starts."""
+
+    def __init__(self, render_mode=None):
+        super().__init__(render_mode=render_mode)
+        self.observation_space = spaces.Dict(
+            observation=POINT, achieved_goal=POINT, desired_goal=POINT
+        )
+
+    def compute_reward(self, achieved, desired, info):
+        return -np.abs(achieved - desired).max(axis=-1)
+
+
+gymnasium.register("Goals-v0", Goals)
+
+
+def test_hindsight_waits_for_the_first_episode(tmp_path):
+    """It raised an error when learning started within an episode."""
+    player = trained("Goals-v0", tmp_path, "her", learning_starts=4, batch_size=8, buffer_size=200)
+    assert len(player.returns) == 2
