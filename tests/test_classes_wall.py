@@ -76,7 +76,6 @@ def recurses():
         (lambda: Path("/dev/full").write_bytes(b"x"), "No space left", True),
         (lambda: lambda: 0, "pickle", False),
     ],
-    ids=str,
 )
 def test_whatever_happens_to_a_reader_is_a_sentence(monkeypatch, read, sentence, ours):
     monkeypatch.setattr(wall, "SECONDS", 1)
