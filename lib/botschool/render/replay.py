@@ -10,6 +10,7 @@ import json
 import zlib
 from base64 import b64encode
 from collections.abc import Iterable, Sequence
+from dataclasses import asdict
 from importlib.resources import files
 from io import BytesIO
 from itertools import repeat
@@ -86,9 +87,14 @@ def _page(data: dict) -> str:
     page = (folder / "replay.html").read_text(encoding="utf-8")
     # "<" never appears in the JSON, so nothing in it can end its element.
     text = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
-    for place, name in (("/*REPLAY*/", "replay.js"), ("/*DRAWING*/", "replay_draw.js")):
-        page = page.replace(place, (folder / name).read_text(encoding="utf-8"))
-    return page.replace("/*DATA*/", text)
+    page = page.replace("/*REPLAY*/", (folder / "replay.js").read_text(encoding="utf-8"))
+    return page.replace("/*DRAWING*/", drawing(data["scene"])).replace("/*DATA*/", text)
+
+
+def drawing(scene: dict | None) -> str:
+    """Return the scripts that draw a scene, or pictures."""
+    names = ["replay_draw.js", *(["replay_space.js"] if scene and "space" in scene else [])]
+    return "\n".join((files("botschool.render") / name).read_text("utf-8") for name in names)
 
 
 def palette() -> dict[str, list[str]]:
@@ -98,11 +104,12 @@ def palette() -> dict[str, list[str]]:
 
 def scene_description(scene: Scene) -> dict:
     """Return what replay_draw.js draws, ready for JSON: the view, shapes and close-ups."""
-    return {
+    drawn = {
         "view": scene.view,
         "shapes": [shape.as_dict() for shape in scene.shapes],
         "closeups": scene.closeups,
     }
+    return drawn | ({"space": asdict(scene.space)} if scene.space else {})
 
 
 class _Step(NamedTuple):

@@ -20,7 +20,8 @@ function fitted(canvas) {
 
 function drawPicture() {
   const { pen, width, height } = fitted(byId("scene"));
-  if (data.scene) drawScene(pen, width, height);
+  if (data.scene?.space) drawSpace(pen, width, height);
+  else if (data.scene) drawScene(pen, width, height);
   else drawFrame(pen, width, height);
 }
 

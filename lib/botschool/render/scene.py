@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from botschool.errors import BotschoolError
 from botschool.problems.transition import Transition
 from botschool.render.canvas import Painter, draw_offscreen
 from botschool.render.shapes import Shape
+from botschool.render.space import Space
 
 
 class Scene(ABC):
@@ -33,12 +35,17 @@ class Scene(ABC):
     charted: tuple[tuple[str, tuple[int, ...]], ...] = ()
     """Charts of a replay below the neurons: name, and the numbers that are its lines (-1 to 1)."""
 
+    memory = 0
+    """Steps before a frame that it depends on, besides those of trails."""
+    space: Space | None = None
+    """What is painted in space, in place of shapes."""
+
     def __init__(self) -> None:
         self.shapes: list[Shape] = []
         self.count = 0
         """Numbers per step."""
         self._past: list[np.ndarray] = []
-        self._painter: Painter | None = None
+        self._painter: Any = None
 
     def add(self, kind: str, points, colour: str, **options) -> None:
         """Add a shape in front of the earlier ones; see Shape."""
@@ -102,14 +109,18 @@ class Scene(ABC):
         Trails show what was drawn before in the same episode.
         """
         numbers = self.numbers(state, action, observation, reward)
-        longest = max((shape.steps for shape in self.shapes), default=0)
+        longest = max((shape.steps for shape in self.shapes), default=self.memory)
         if not self._follows(state):
             self._past = []
         self._past = [*self._past, numbers][-longest - 1 :]
         draw_offscreen()
         if self._painter is None:
-            self._painter = Painter(self.shapes, self.view, self.scale)
+            self._painter = self.painter()
         return self._painter.frame(self._past)
+
+    def painter(self) -> Any:
+        """Return what paints the frames."""
+        return Painter(self.shapes, self.view, self.scale)
 
     def draw_transition(self, transition: Transition) -> np.ndarray:
         """Return the frame of a step that `Problem.play` yielded; see draw."""

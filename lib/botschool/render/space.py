@@ -1,0 +1,199 @@
+"""Paint a body in space: ground, shadow and lit limbs, as replay_space.js does in a page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from botschool.render.canvas import FINE, blank, import_pygame, to_frame, write_text
+from botschool.render.shapes import PALETTE
+
+if TYPE_CHECKING:
+    import pygame
+
+Triple = tuple[float, float, float]
+
+ROUND = np.array([[np.cos(a), np.sin(a)] for a in 2 * np.pi * np.arange(32) / 32])
+WHITE, BLACK = np.full(3, 255.0), np.zeros(3)
+
+
+@dataclass(frozen=True)
+class Space:
+    """A body and the camera that follows it, for both painters."""
+
+    links: tuple[tuple[float, ...], ...]
+    """Of each link: parent, place in the parent, axis of its hinge."""
+    limbs: tuple[tuple, ...]
+    """Of each limb: link, one end, the other end, radius, colour."""
+    height: float
+    """Height of what the camera looks at."""
+    right: Triple
+    up: Triple
+    back: Triple
+    """Directions of the camera."""
+    memory: int
+    """The camera follows the mean of so many steps, about a second."""
+    seconds: float
+    """Duration of a step."""
+    distance: float = 6.0
+    """Metres from the camera to what it looks at."""
+    near: float = 1.0
+    far: float = 10.0
+    """Radius of the ground that is drawn."""
+    sun: Triple = (-0.2, -0.3, 1.0)
+    shade: float = 0.28
+    """Opacity of a shadow."""
+    bands: int = 16
+    """Steps of light on a limb."""
+    strokes: tuple[tuple[float, ...], ...] = (
+        (0, 2, 1, 2), (0, 1, 0, 2), (1, 1, 1, 2), (0, 1, 1, 1), (0, 0, 0, 1), (1, 0, 1, 1),
+        (0, 0, 1, 0),
+    )  # fmt: skip
+    """The parts of digits: x, y of two ends."""
+    digits: tuple[int, ...] = (0x77, 0x24, 0x5D, 0x6D, 0x2E, 0x6B, 0x7B, 0x25, 0x7F, 0x6F)
+    """Which strokes a digit has, a bit each."""
+
+
+class SpacePainter:
+    """Paints the frames of a scene in space on white; arguments as in `canvas.Painter`."""
+
+    def __init__(
+        self,
+        space: Space,
+        places: Callable[[np.ndarray], np.ndarray],
+        view: tuple[float, float, float, float],
+        scale: float,
+    ) -> None:
+        """Make the painter; places: as in `_core.SpatialBody`."""
+        left, bottom, right, top = view
+        self._space, self._places = space, places
+        self._size = round((right - left) * scale), round((top - bottom) * scale)
+        self._corner, self._pixels = np.array([left, top]), FINE * scale
+        self._axes = np.array([space.right, space.up, space.back])
+        self._coordinates = len(space.links) + 6
+        self._ends = np.array([limb[1:7] for limb in space.limbs]).reshape(-1, 2, 3)
+        self._radii = np.array([limb[7] for limb in space.limbs])
+
+    def frame(self, past: Sequence[np.ndarray]) -> np.ndarray:
+        """Return a frame, (height, width, 3) uint8; past: the numbers of the last steps."""
+        space = self._space
+        way = np.array([numbers[:2] for numbers in past[: -space.memory - 2 : -1]])
+        steps = len(way) - 1
+        way = np.concatenate([way, way[-1:].repeat(space.memory - steps, axis=0)])
+        self._target = np.array([*followed(way), space.height])
+        surface = blank(*(FINE * side for side in self._size))
+        self._paint_ground(surface)
+        places = self._places(past[-1][: self._coordinates])
+        ends = np.array(
+            [places[limb[0], 0] + own @ places[limb[0], 1:]
+             for limb, own in zip(space.limbs, self._ends, strict=True)]
+        )  # fmt: skip
+        self._paint_shadow(surface, ends)
+        self._paint_limbs(surface, ends)
+        small = import_pygame().transform.smoothscale(surface, self._size)
+        speed = (way[0, 0] - way[steps, 0]) / max(steps, 1) / space.seconds
+        write_text(small, f"{way[0, 0]:.1f} m    {speed:.1f} m/s", (12, 12), 26)
+        return to_frame(small)
+
+    def _paint_ground(self, surface: pygame.Surface) -> None:
+        """Paint every other square metre, and how many metres it is from the start."""
+        space, middle = self._space, self._target[:2]
+        around = np.arange(-space.far - 1, space.far + 1)
+        corners = np.floor(middle) + np.stack(np.meshgrid(around, around), axis=-1).reshape(-1, 2)
+        away = np.linalg.norm(corners + 0.5 - middle, axis=1) / space.far
+        corners, strengths = corners[away < 1], (1 - away[away < 1] ** 2) ** 2
+        dark = corners.sum(axis=1) % 2 == 1
+        square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+        self._fill(surface, corners[dark][:, None] + square, "ground", strengths[dark])
+        marks = np.array(
+            [(x + stroke[0], y + stroke[1], x + stroke[2], y + stroke[3], strength)
+             for (x, y), strength in zip(corners, strengths, strict=True)
+             if x >= 0 and (y + 1) % 4 == 0 for stroke in self._strokes(f"{x:.0f}")]
+        ).reshape(-1, 5)  # fmt: skip
+        outlines = hull(marks[:, :2], 0.022, marks[:, 2:4], 0.022)
+        self._fill(surface, outlines, "muted", marks[:, 4])
+
+    def _strokes(self, number: str) -> Iterator[np.ndarray]:
+        for place, digit in enumerate(number):
+            for bit, stroke in enumerate(self._space.strokes):
+                if self._space.digits[int(digit)] >> bit & 1:
+                    left = 0.08 + 0.22 * place
+                    yield 0.15 * np.array(stroke) + (left, -0.4, left, -0.4)
+
+    def _seen(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return pixels, and pixels per metre, of points; pairs are on the ground."""
+        if points.shape[-1] == 2:
+            points = np.concatenate([points, np.zeros((*points.shape[:-1], 1))], axis=-1)
+        x, y, back = np.moveaxis((points - self._target) @ self._axes.T, -1, 0)
+        size = self._space.distance / np.maximum(self._space.distance - back, 1e-9)
+        flat = np.stack([x * size - self._corner[0], self._corner[1] - y * size], axis=-1)
+        return flat * self._pixels, size * self._pixels
+
+    def _fill(
+        self, surface: pygame.Surface, polygons: np.ndarray, colour: str, strengths: np.ndarray
+    ) -> None:
+        """Fill polygons on the ground, (polygons, corners, 2), that are not too near the camera."""
+        pixels, sizes = self._seen(polygons)
+        nearest = self._pixels * self._space.distance / self._space.near
+        for points, size, strength in zip(pixels, sizes, strengths, strict=True):
+            if size.max() < nearest:
+                import_pygame().draw.polygon(surface, mixed(colour, WHITE, 1 - strength), points)
+
+    def _paint_shadow(self, surface: pygame.Surface, ends: np.ndarray) -> None:
+        pygame, sun = import_pygame(), self._space.sun
+        fallen = ends[..., :2] - ends[..., 2:] * np.array(sun[:2]) / sun[2]
+        outlines, _ = self._seen(hull(fallen[:, 0], self._radii, fallen[:, 1], self._radii))
+        shadow = pygame.Surface(surface.get_size(), pygame.SRCALPHA)
+        for points in outlines:
+            pygame.draw.polygon(shadow, (0, 0, 0, round(255 * self._space.shade)), points)
+        surface.blit(shadow, (0, 0))
+
+    def _paint_limbs(self, surface: pygame.Surface, ends: np.ndarray) -> None:
+        pixels, sizes = self._seen(ends)
+        radii = self._radii[:, None] * sizes
+        sun = self._axes @ self._space.sun / np.linalg.norm(self._space.sun)
+        towards = np.array([sun[0], -sun[1]])
+        shares = np.arange(self._space.bands)[:, None, None] / self._space.bands
+        centres = pixels + (shares * radii)[..., None] * towards
+        outlines = [
+            hull(middles[:, 0], within[:, 0], middles[:, 1], within[:, 1])
+            for middles, within in zip(centres, radii * (1 - shares), strict=True)
+        ]
+        for limb in np.argsort(sizes.sum(axis=1)):
+            for share, outline in zip(shares.flat, outlines, strict=True):
+                colour = lit(self._space.limbs[limb][8], share)
+                import_pygame().draw.polygon(surface, colour, outline[limb])
+
+
+def followed(way: np.ndarray) -> np.ndarray:
+    """Return where a smooth camera looks; way: places of the body, the newest first, (steps, 2).
+
+    It goes at the speed of the last second, and would be right at a constant speed.
+    """
+    half = len(way) // 2
+    late, early = way[:half].mean(axis=0), way[half : 2 * half].mean(axis=0)
+    return late + (half - 1) / (2 * half) * (late - early)
+
+
+def mixed(colour: str, other: np.ndarray, share: float) -> tuple[int, int, int]:
+    """Return a colour of the palette with a share of another."""
+    red, green, blue = PALETTE[colour][0] + share * (other - PALETTE[colour][0])
+    return round(red), round(green), round(blue)
+
+
+def lit(colour: str, share: float) -> tuple[int, int, int]:
+    """Return the colour of a place on a limb: 0 where it is darkest, to 1."""
+    if share < 0.5:
+        return mixed(colour, BLACK, 0.45 * (1 - 2 * share))
+    return mixed(colour, WHITE, 0.6 * (2 * share - 1))
+
+
+def hull(a: np.ndarray, ra, b: np.ndarray, rb) -> np.ndarray:
+    """Return the outlines of discs at a with radius ra, and at b with rb, each a convex polygon."""
+    ra, rb = (np.broadcast_to(r, len(a))[:, None, None] for r in (ra, rb))
+    a, b = a[:, None], b[:, None]
+    farther = (b * ROUND).sum(-1, keepdims=True) + rb > (a * ROUND).sum(-1, keepdims=True) + ra
+    return np.where(farther, b + rb * ROUND, a + ra * ROUND)
