@@ -12,9 +12,10 @@ import pytest
 
 from botschool import _core
 from botschool.config import PolicyConfig
+from botschool.problems import make
 from botschool.problems.native import NativeProblem
 from botschool.render import replay
-from botschool.render.scenes import make_scene
+from botschool.render.scenes import make_scene, scene_of
 from botschool.render.space import followed
 
 BODIES = {
@@ -109,11 +110,36 @@ def test_an_end_on_the_ground_is_charted():
         assert scene.numbers(state)[columns[leg // 2 - 1]] == 1.0
 
 
+HAMMER = """<robot name="hammer"><link name="head">
+  <inertial><mass value="4"/>
+    <inertia ixx="0.02" iyy="0.05" izz="0.06" ixy="0" ixz="0" iyz="0"/></inertial>
+  <collision><geometry><box size="0.4 0.2 0.1"/></geometry></collision></link>
+  <link name="grip"><collision><origin xyz="0 0 -0.1"/>
+    <geometry><capsule radius="0.02" length="0.2"/></geometry></collision></link>
+  <joint name="neck" type="revolute"><parent link="head"/><child link="grip"/>
+    <origin xyz="0.2 0 0"/><axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="20"/></joint>
+</robot>"""
+
+
+def test_a_robot_of_ones_own_is_seen_from_near_and_its_box_is_rounded(tmp_path):
+    (tmp_path / "own.urdf").write_text(HAMMER)
+    problem = make("SpatialBody-v0", options=f"urdf='{tmp_path}/own.urdf', seconds=0.04")
+    scene = scene_of(problem)
+    assert scene.fps == 25 and scene.view[2] < 1
+    [head, *_] = [limb for limb in scene.space.limbs if limb[0] == 0]
+    assert np.abs(np.array(head[1:7])) == pytest.approx([0.125, 0, 0, 0.125, 0, 0], abs=1e-9)
+    assert head[7:] == (pytest.approx(0.075), "pole")
+    state = np.zeros(scene.state_size)
+    state[[2, 3]] = 0.2, 1.0
+    frame = scene.draw(state)
+    assert (np.ptp(frame.astype(int), axis=2) > 40).sum() > 5000
+    assert np.ptp(make_scene("SpatialBody-v0").draw(at("SpatialAnt-v5")), axis=2).max() > 40
+
+
 JAVASCRIPT = """
 import { readFileSync } from "fs";
 const { space, cases, rows } = JSON.parse(readFileSync(GIVEN));
-const values = [0, 1].flatMap((i) => rows.map((row) => row[i]));
-const shown = { numbers: { rows: rows.length, values } };
+const numbersAt = (step) => rows[step];
 let time = 0;
 const answer = cases.map((numbers) => {
   const frames = framesOf(space.links, numbers);

@@ -67,6 +67,8 @@ class NativeProblem(Problem):
         info = info | (chosen.body or {})
         self.race = chosen.race
         """Choices about a race in space, or None."""
+        self.declared = chosen.body is not None
+        """Whether the race has a body that the user declared."""
         self._options = self.options() if self.robots else self.race
         self.fps = 1 / info["seconds"]
         self.common, self.sides = info["common"], info["sides"]

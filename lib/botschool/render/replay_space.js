@@ -1,4 +1,4 @@
-// Draws a body in space (scenes/spatial.py) at `time`: ground, shadow and lit limbs, as space.py paints them.
+// Draws a body in space at `time`: ground, shadow and lit limbs, as space.py paints them.
 
 const sum = (a, b, times = 1) => a.map((value, i) => value + times * b[i]);
 const dot = (a, b) => a.reduce((total, value, i) => total + value * b[i], 0);
@@ -35,15 +35,8 @@ function framesOf(links, numbers) {
 }
 
 // Returns the body's x and y at the last steps, the newest first, as often as the camera needs.
-function wayOf({ memory }) {
-  const { rows, values } = shown.numbers;
-  const at = (moment, column) => {
-    const row = Math.floor(moment);
-    const here = values[column * rows + row];
-    return moment > row ? here + (moment - row) * (values[column * rows + row + 1] - here) : here;
-  };
-  return Array.from({ length: memory + 1 }, (_, i) => [0, 1].map((column) => at(Math.max(time - i, 0), column)));
-}
+const wayOf = ({ memory }) =>
+  Array.from({ length: memory + 1 }, (_, i) => numbersAt(Math.max(time - i, 0)).slice(0, 2));
 
 // Returns where a smooth camera looks; way: as wayOf gives it.
 function followed(way) {
@@ -70,12 +63,11 @@ const lit = (hex, share) => (share < 0.5
   ? mixed(hex, "#000000", 0.45 * (1 - 2 * share)) : mixed(hex, "#ffffff", 0.6 * (2 * share - 1)));
 
 function drawSpace(pen, width, height) {
-  const { space, view: [left, bottom, right, top] } = data.scene;
+  const { space, space: { axes }, view: [left, bottom, right, top] } = data.scene;
   const numbers = numbersAt(time);
   const way = wayOf(space);
   const target = [...followed(way), space.height];
   const scale = Math.min(width / (right - left), height / (top - bottom));
-  const axes = [space.right, space.up, space.back];
   const seen = (point) => {
     const [x, y, back] = axes.map((axis) => dot(axis, sum(point, target, -1)));
     const size = (scale * space.distance) / Math.max(space.distance - back, space.near);
@@ -90,7 +82,7 @@ function drawSpace(pen, width, height) {
     return { ends, radius: own[6], colour: colour(own[7]) };
   });
   drawShadow(pen, space, limbs, ground);
-  drawLimbs(pen, space, axes, limbs, seen);
+  drawLimbs(pen, space, limbs, seen);
   const steps = Math.min(time, space.memory);
   const speed = steps ? (way[0][0] - way[space.memory][0]) / steps / space.seconds : 0;
   pen.fillStyle = colour("ink");
@@ -144,7 +136,7 @@ function drawShadow(pen, { sun, shade }, limbs, ground) {
   pen.globalAlpha = 1;
 }
 
-function drawLimbs(pen, { sun, bands }, axes, limbs, seen) {
+function drawLimbs(pen, { sun, bands, axes }, limbs, seen) {
   const [across, up] = axes.map((axis) => dot(axis, sun) / Math.hypot(...sun));
   const flat = limbs.map(({ ends, radius, colour: hex }) => {
     const [a, b] = ends.map(seen);

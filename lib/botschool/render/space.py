@@ -22,39 +22,33 @@ WHITE, BLACK = np.full(3, 255.0), np.zeros(3)
 
 @dataclass(frozen=True)
 class Space:
-    """A body and the camera that follows it, for both painters."""
+    """What both painters know of a body and of the camera that follows it, in metres.
+
+    links: of each its parent, its place there, the axis of its hinge. limbs: of each its link, both
+    ends there, radius, colour. height: of what the camera looks at, from `distance`, with the axes
+    right, up and back. memory: steps in about a second, which the camera remembers; seconds: of a
+    step. near, far: from the camera, and from what it looks at, to what is drawn of the ground.
+    sun: where the light comes from, on so many bands of a limb. shade: opacity of a shadow.
+    strokes: two ends each; digits: which of the strokes each has, a bit each.
+    """
 
     links: tuple[tuple[float, ...], ...]
-    """Of each link: parent, place in the parent, axis of its hinge."""
     limbs: tuple[tuple, ...]
-    """Of each limb: link, one end, the other end, radius, colour."""
     height: float
-    """Height of what the camera looks at."""
-    right: Triple
-    up: Triple
-    back: Triple
-    """Directions of the camera."""
     memory: int
-    """The camera follows the mean of so many steps, about a second."""
     seconds: float
-    """Duration of a step."""
     distance: float = 6.0
-    """Metres from the camera to what it looks at."""
+    axes: tuple[Triple, ...] = ((0.913, 0.408, 0), (-0.121, 0.27, 0.955), (0.39, -0.872, 0.296))
     near: float = 1.0
     far: float = 10.0
-    """Radius of the ground that is drawn."""
     sun: Triple = (-0.2, -0.3, 1.0)
+    bands: int = 24
     shade: float = 0.28
-    """Opacity of a shadow."""
-    bands: int = 16
-    """Steps of light on a limb."""
     strokes: tuple[tuple[float, ...], ...] = (
         (0, 2, 1, 2), (0, 1, 0, 2), (1, 1, 1, 2), (0, 1, 1, 1), (0, 0, 0, 1), (1, 0, 1, 1),
         (0, 0, 1, 0),
     )  # fmt: skip
-    """The parts of digits: x, y of two ends."""
     digits: tuple[int, ...] = (0x77, 0x24, 0x5D, 0x6D, 0x2E, 0x6B, 0x7B, 0x25, 0x7F, 0x6F)
-    """Which strokes a digit has, a bit each."""
 
 
 class SpacePainter:
@@ -72,7 +66,7 @@ class SpacePainter:
         self._space, self._places = space, places
         self._size = round((right - left) * scale), round((top - bottom) * scale)
         self._corner, self._pixels = np.array([left, top]), FINE * scale
-        self._axes = np.array([space.right, space.up, space.back])
+        self._axes = np.array(space.axes)
         self._coordinates = len(space.links) + 6
         self._ends = np.array([limb[1:7] for limb in space.limbs]).reshape(-1, 2, 3)
         self._radii = np.array([limb[7] for limb in space.limbs])
@@ -128,9 +122,9 @@ class SpacePainter:
         if points.shape[-1] == 2:
             points = np.concatenate([points, np.zeros((*points.shape[:-1], 1))], axis=-1)
         x, y, back = np.moveaxis((points - self._target) @ self._axes.T, -1, 0)
-        size = self._space.distance / np.maximum(self._space.distance - back, 1e-9)
+        size = self._space.distance / np.maximum(self._space.distance - back, self._space.near)
         flat = np.stack([x * size - self._corner[0], self._corner[1] - y * size], axis=-1)
-        return flat * self._pixels, size * self._pixels
+        return np.clip(flat * self._pixels, -1e4, 1e4), size * self._pixels
 
     def _fill(
         self, surface: pygame.Surface, polygons: np.ndarray, colour: str, strengths: np.ndarray

@@ -18,6 +18,7 @@ from botschool.problems.native import INFOS, NATIVE
 from botschool.problems.transition import Transition
 from botschool.render.scene import SCENES, Scene
 from botschool.render.scenes.meters import MeterScene
+from botschool.render.scenes.spatial import DeclaredScene
 
 for _module in pkgutil.iter_modules(__path__):
     import_module(f"{__name__}.{_module.name}")
@@ -43,6 +44,8 @@ def scene_of(problem: Any) -> Scene | None:
     """Return the scene of a problem's steps; None if they bring their own pictures."""
     if not problem.native or drawn_by_gymnasium(problem):
         return None
+    if problem.declared:
+        return DeclaredScene(problem.race, 1 / problem.fps)
     return make_scene(problem.dynamics, problem.robots, problem.plan)
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
-from math import cos, sin
+from typing import Any
 
 import numpy as np
 
@@ -11,9 +13,6 @@ from botschool import _core
 from botschool.problems.native import INFOS
 from botschool.render.scene import Scene, draws
 from botschool.render.space import Space, SpacePainter
-
-WEST, STEEP = 0.42, 0.3
-"""Direction of the camera: radians from the right side to the front, and up from the ground."""
 
 
 class SpatialScene(Scene):
@@ -25,15 +24,13 @@ class SpatialScene(Scene):
     scale = 150.0
     view = (-2.4, -1.2, 2.4, 1.52)
     """In metres at the distance of the robot; (0, 0) is what the camera looks at."""
-    FRAMED = 0.5
-    """Height of what the camera looks at, in heights of the body."""
 
-    def __init__(self, problem: str, body: str, height: float, robots: tuple = ()) -> None:
-        """Make the picture; body: as in `_core.SpatialBody`; height: of the body in metres."""
+    def __init__(self, body: Any, seconds: float, height: float, robots: tuple = ()) -> None:
+        """Make the picture; body: of `_core.SpatialBody`; height: where the camera looks."""
         super().__init__()
-        info, self._body = INFOS[problem], _core.SpatialBody(body)
+        self._body = _core.SpatialBody(body)
         table = self._body.table
-        self.state_size, self.fps = info["states"], 1 / info["seconds"]
+        self.state_size, self.fps = self._body.size, 1 / seconds
         parents = {link["parent"] for link in table["links"]}
         ends = [i for i in range(len(table["links"])) if i not in parents]
         self._touching = [[ball[0] == end for ball in table["balls"]] for end in ends]
@@ -43,11 +40,10 @@ class SpatialScene(Scene):
         self.memory = round(self.fps)
         self.space = Space(
             links=tuple((link["parent"], *link["place"], *link["axis"]) for link in table["links"]),
-            limbs=tuple(_limbs(table)),
-            height=self.FRAMED * height,
-            **dict(zip(("right", "up", "back"), _axes(), strict=True)),
+            limbs=tuple(_limbs(self._body)),
+            height=height,
             memory=self.memory,
-            seconds=info["seconds"],
+            seconds=seconds,
         )
 
     def body(self) -> dict:
@@ -60,7 +56,7 @@ class SpatialScene(Scene):
 
     def _numbers(self, state, action, observation, reward) -> list[float]:
         loads = state[-len(self._touching[0]) :]
-        touching = [float(loads[balls].sum() > 0) for balls in self._touching]
+        touching = [float((loads[balls] > 0).any()) for balls in self._touching]
         return [*state[: self._coordinates].tolist(), *touching]
 
     def _follows(self, state: np.ndarray) -> bool:
@@ -68,43 +64,57 @@ class SpatialScene(Scene):
         return bool(self._past) and np.abs(self._past[-1][:3] - state[:3]).max() < 0.5
 
 
-def _axes() -> tuple[tuple[float, float, float], ...]:
-    """Return the directions right, up and back of the camera."""
-    back = (sin(WEST) * cos(STEEP), -cos(WEST) * cos(STEEP), sin(STEEP))
-    right = (cos(WEST), sin(WEST), 0.0)
-    return right, tuple(np.cross(back, right).tolist()), back
+class DeclaredScene(SpatialScene):
+    """A body that the user declared; the camera is as near as the body is small."""
+
+    def __init__(self, race: _core.Race, seconds: float) -> None:
+        super().__init__(race, seconds, 0.0)
+        places = self._body.places(np.eye(self._body.coordinates)[3])
+        reach = [places[limb[0], 0] + limb[7] for limb in self.space.limbs]
+        reach += [places[limb[0], 0] - limb[7] for limb in self.space.limbs]
+        sizes = np.ptp(reach, axis=0)
+        near = float(np.clip(sizes.max() / 1.6, 0.2, 4.0))
+        self.view, self.scale = tuple(near * side for side in self.view), self.scale / near
+        self.space = replace(self.space, height=sizes[2] / 2, distance=near * self.space.distance)
 
 
-def _limbs(table: dict):
+def _limbs(body: Any) -> Iterator[tuple]:
     """Yield each shape: link, one end, the other end, radius, colour."""
-    balls = [(link, np.array(place), radius) for link, place, _, radius in table["shapes"]]
-    for link, place, half, radius in table["shapes"]:
+    shapes = list(_rounded(body.table["shapes"]))
+    places = body.places(np.eye(body.coordinates)[3])
+    balls = {(link, *np.round(place, 9)) for link, place, half, _ in shapes if not np.any(half)}
+    for link, place, half, radius in shapes:
         ends = [np.array(place) - half, np.array(place) + half]
-        for i, (a, b) in enumerate((ends, ends[::-1])):
-            for other, centre, larger in balls:
-                if other == link and larger > radius and np.abs(a - centre).max() < 1e-9:
-                    # begin at the surface of the ball that the end is in
-                    way = (b - a) / np.linalg.norm(b - a)
-                    ends[i] = a + way * min(larger, float(np.linalg.norm(b - a)))
-        yield (link, *ends[0].tolist(), *ends[1].tolist(), radius, _colour(table["links"], link))
+        for one in (0, 1):
+            if np.any(half) and (link, *np.round(ends[one], 9)) in balls:
+                ends[one] = ends[1 - one]  # the rest is inside the ball
+        left = (places[link, 0] + np.array(place) @ places[link, 1:])[1]
+        colour = "pole" if abs(left) < 0.03 else "short pole" if left > 0 else "axle"
+        yield (link, *ends[0].tolist(), *ends[1].tolist(), radius, colour)
 
 
-def _colour(links: list[dict], link: int) -> str:
-    """Return the colour of a limb: its side can be seen, and the trunk."""
-    name = links[link]["name"]
-    while link and not name.startswith(("left", "right")):
-        place = links[link]["place"]
-        if place[1]:
-            name = "left" if place[1] > 0 else "right"
-        link = links[link]["parent"]
-    return {"left": "short pole", "righ": "axle"}.get(name[:4], "pole")
+def _rounded(shapes: list[tuple]) -> Iterator[tuple]:
+    """Yield the shapes, with a capsule in place of the four edges of a box."""
+    edges: list[np.ndarray] = []
+    for link, place, half, radius in shapes:
+        if radius:
+            yield link, place, half, radius
+            continue
+        edges += [np.add(place, half), np.subtract(place, half)]
+        if len(edges) == 8:
+            middle = np.mean(edges, axis=0)
+            _, _, axes = np.linalg.svd(edges - middle)
+            long, *wide = np.abs((edges - middle) @ axes.T).max(axis=0)
+            yield link, middle, axes[0] * max(long - np.mean(wide), 0.0), float(np.mean(wide))
+            edges = []
 
 
 for _name, _body, _height in (
-    ("SpatialAnt-v0", "ant", 0.75),
-    ("SpatialAnt-v5", "ant", 0.75),
-    ("SpatialHumanoid-v0", "humanoid", 1.6),
-    ("SpatialHumanoid-v5", "humanoid", 1.6),
-    ("SpatialHumanoidStandup-v0", "humanoidstandup", 1.2),
+    ("SpatialAnt-v0", "ant", 0.35),
+    ("SpatialAnt-v5", "ant", 0.35),
+    ("SpatialBody-v0", "ant", 0.35),
+    ("SpatialHumanoid-v0", "humanoid", 0.8),
+    ("SpatialHumanoid-v5", "humanoid", 0.8),
+    ("SpatialHumanoidStandup-v0", "humanoidstandup", 0.6),
 ):
-    draws(_name)(partial(SpatialScene, _name, _body, _height))
+    draws(_name)(partial(SpatialScene, _body, INFOS[_name]["seconds"], _height))
