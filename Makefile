@@ -41,9 +41,9 @@ demo: $(READY) ## evolve an Acrobot and a hopping robot, draw their curves and f
 
 build: $(READY) ## the Python environment and the C++ module
 
-web: lib/botschool/page/planar.wasm ## the core of pages, for `botschool page`
+web: lib/botschool/page/spatial.wasm ## the core of pages, for `botschool page`
 
-lib/botschool/page/planar.wasm: $(CPP_INPUTS) | .venv/.module
+lib/botschool/page/spatial.wasm: $(CPP_INPUTS) | .venv/.module
 	@tools/setup.sh web
 
 # What an exercise trains and simulates with can be large: its grader names the extras it needs.
@@ -68,7 +68,7 @@ PYTEST := $(BIN)/python -m pytest -q -n $(WORKERS) --dist worksteal
 test: .venv/.tests ## the tests that take seconds
 	@$(PYTEST)
 
-test-long: .venv/.tests lib/botschool/page/planar.wasm ## the tests that take minutes: whole runs, many seeds
+test-long: .venv/.tests lib/botschool/page/spatial.wasm ## the tests that take minutes: whole runs, many seeds
 	@$(PYTEST) -m long
 
 book: .venv/.tests .venv/.extra-book ## a website of the texts and documents in results/book, for a folder or any host

@@ -35,7 +35,7 @@ from botschool.rl.native.choosing import choose
 
 ROOT = Path(__file__).parents[1]
 SCRIPTS = ROOT / "lib/botschool/page"
-BUILT = (SCRIPTS / "planar.wasm").exists()
+BUILT = (SCRIPTS / "spatial.wasm").exists()
 built = pytest.mark.skipif(not BUILT, reason="the core for pages is not built: make web")
 PROBLEMS = (
     "CartPole-v1",
@@ -46,6 +46,7 @@ PROBLEMS = (
     "MountainCarContinuous-v0",
     "envSwingupCustom",
     "PlanarHopper-v5",
+    "SpatialAnt-v5",
 )
 
 
@@ -148,6 +149,7 @@ def test_run_files_are_the_command_s(problem, algo, tmp_path):
         "ErDpole": {"architecture": 1, "pmaxsteps": 150},
         "Acrobot-v1": {"out_type": 3, "winit": 1},
         "PlanarHopper-v5": {"action_noise": 1, "normalize": 1, "clip": 1, "winit": 1},
+        "SpatialAnt-v5": {"action_noise": 1, "normalize": 1, "clip": 1, "winit": 1},
         "Pendulum-v1": {"nlayers": 2, "normalize": 1, "episodes": 1},
         "envSwingupCustom": {"architecture": 2, "out_type": 2},
     }
@@ -270,7 +272,9 @@ def test_whole_runs_are_the_command_s(name, seed, tmp_path):
     assert evolved_by_node(experiment, seed, tmp_path) == expected
 
 
-@pytest.mark.parametrize("problem", [*PROBLEMS, "PlanarWalker2D-v0", "ErPredprey"])
+@pytest.mark.parametrize(
+    "problem", [*PROBLEMS, "PlanarWalker2D-v0", "SpatialHumanoid-v0", "ErPredprey"]
+)
 def test_pictures_move_as_python_says(problem, tmp_path):
     native = NativeProblem(problem)
     scene = make_scene(native.dynamics, native.robots)
@@ -414,6 +418,7 @@ def by_python(experiment, genotype, changes):
         ("ErDpole", [[3, "move", 2, 0.1], [4, "blind", 0, 0]]),
         ("CartPole-v1", [[2, "cut", 5, 0], [3, "move", 3, 0.4]]),
         ("PlanarHopper-v5", [[4, "cut", 14, 0], [6, "move", 6, 1.0]]),
+        ("SpatialAnt-v5", [[4, "cut", 30, 0], [6, "move", 15, 1.0]]),
     ],
 )
 def test_a_page_s_hands_do_what_they_say(problem, changes, tmp_path):
@@ -519,7 +524,14 @@ def test_frozen_memory_is_what_the_steps_before_left(problem, architecture, tmp_
 PAGES = (
     *("acrobot", "cartpole", "cartpole_openaies", "discrim", "dpole", "dpole_lstm"),
     *("mountaincarcontinuous", "pendulum", "planarhalfcheetah", "planarhopper", "planarwalker2d"),
-    *("predprey", "predprey_archive", "predprey_archivestar", "predprey_maxsolvestar", "swingup"),
+    *(
+        "predprey",
+        "predprey_archive",
+        "predprey_archivestar",
+        "predprey_maxsolvestar",
+        "spatialant",
+    ),
+    *("spatialhumanoid", "swingup"),
 )
 """Experiment files that can be pages."""
 

@@ -24,7 +24,7 @@ from botschool.page.twins import twin
 from botschool.policies.hyperparameters import NETWORK
 from botschool.problems.native import NativeProblem
 from botschool.render.panel import neuron_groups
-from botschool.render.replay import palette, scene_description
+from botschool.render.replay import drawing, palette, scene_description
 from botschool.render.scenes import make_scene
 from botschool.seeds import POST_EVALUATION_SEED
 
@@ -280,9 +280,9 @@ def _shorter(script: str) -> str:
 
 def assemble(data: dict, seed: int) -> bytes:
     """Return the page of these data."""
-    folder, drawing = files("botschool.page"), files("botschool.render") / "replay_draw.js"
+    folder = files("botschool.page")
     read = {name: _shorter((folder / name).read_text("utf-8")) for name in (*SCRIPTS, "worker.js")}
-    scripts = "\n".join([*(read[name] for name in SCRIPTS), _shorter(drawing.read_text("utf-8"))])
+    scripts = "\n".join([*(read[name] for name in SCRIPTS), _shorter(drawing(data["scene"]))])
     # a picture can have hundreds of shapes, as a ruler has marks
     shapes = json.dumps(data["scene"]["shapes"], separators=(",", ":")).encode()
     data = data | {"scene": data["scene"] | {"shapes": _packed(shapes)}}

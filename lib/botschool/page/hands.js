@@ -52,6 +52,10 @@ const HANDS = {
     grips: () => [],
     push: { name: "the robot", act: ({ segments }, state, way) => { state[2 + segments.length] += way; } },
   },
+  spatial: {
+    grips: () => [],
+    push: { name: "the robot", act: ({ coordinates }, state, way) => { state[coordinates] += way; } },
+  },
   arena: {
     grips: ({ cylinder, robots }) =>
       cylinder ? [arenaGrip(3), arenaGrip(0)] : robots.map((_, i) => arenaGrip(3 * i)),

@@ -23,8 +23,8 @@ const game = { episode: 0, step: 0, total: 0, playing: true, before: 0, debt: 0,
 
 // The picture
 
-function numbersAt() {
-  return steps[steps.length - 1];
+function numbersAt(step = time) {
+  return steps[step];
 }
 
 function keep(numbers) {

@@ -53,6 +53,12 @@ const NUMBERS = {
     return [...numbers, ...feet.map((foot) => +onGround(foot))];
   },
 
+  spatial({ coordinates, touching }, state) {
+    const loads = [...state].slice(-touching[0].length);
+    const onGround = touching.map((balls) => +balls.some((own, i) => own && loads[i] > 0));
+    return [...[...state].slice(0, coordinates), ...onGround];
+  },
+
   arena({ robots, cylinder, zone, touching }, given, action, observation, reward) {
     const state = [...given];
     if (touching && reward) { // the move into the other robot was not carried out

@@ -10,6 +10,7 @@ from botschool.render.scene import Scene
 from botschool.render.scenes.arenas import CAMERA_SECTORS, ArenaScene, DiscrimScene, PredpreyScene
 from botschool.render.scenes.classic import AcrobotScene, CartScene, MountainCarScene, PendulumScene
 from botschool.render.scenes.planar import PlanarScene
+from botschool.render.scenes.spatial import SpatialScene
 
 
 def twin(problem: NativeProblem, scene: Scene) -> dict[str, Any]:
@@ -27,6 +28,8 @@ def twin(problem: NativeProblem, scene: Scene) -> dict[str, Any]:
         return {"kind": "cart", "poles": poles, "discrete": scene.discrete, "pivot": pivot}
     if isinstance(scene, PlanarScene):
         return {"kind": "planar"} | scene.body()
+    if isinstance(scene, SpatialScene):
+        return {"kind": "spatial"} | scene.body()
     if isinstance(scene, (DiscrimScene, PredpreyScene)):
         return {"kind": "arena", "side": scene.side} | _arena(scene)
     raise BotschoolError(f"{problem.name} has no picture in a page yet.")
