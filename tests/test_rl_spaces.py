@@ -38,6 +38,11 @@ OBSERVATIONS = {
     "binary": spaces.MultiBinary([2, 2]),
     "integers": spaces.Box(-3, 3, (2,), np.int32),
     "scalar": spaces.Box(-1, 1, (), np.float32),
+    "small picture": spaces.Box(0, 255, (10, 10, 3), np.uint8),
+    "pictures": spaces.Dict(
+        small=spaces.Box(0, 255, (7, 7, 3), np.uint8),
+        large=spaces.Box(0, 255, (40, 40, 3), np.uint8),
+    ),
     "nest": spaces.Dict(
         a=spaces.Tuple([spaces.Discrete(3, start=2), spaces.Dict(x=POINT, t=spaces.Text(3))]),
         b=spaces.MultiDiscrete([[2, 2]], start=[[1, -1]]),
@@ -99,6 +104,16 @@ class Unseeded(Asserting):
         return self.observation_space.sample(), {}
 
 
+class Unpainted(Asserting):
+    """Knows no render_mode."""
+
+    metadata: ClassVar = {}
+
+    def __init__(self):
+        super().__init__()
+
+
+gymnasium.register("Unpainted-v0", Unpainted)
 for name, space in ACTIONS.items():
     gymnasium.register(f"Acts-{name.replace(' ', '')}-v0", Asserting, kwargs={"acts": space})
 for name, space in OBSERVATIONS.items():
@@ -137,6 +152,18 @@ def test_every_choice_is_reached(tmp_path):
 @pytest.mark.parametrize("name", OBSERVATIONS)
 def test_a_learner_reads_the_observations(name, tmp_path):
     assert trained(f"Sees-{name.replace(' ', '')}-v0", tmp_path).returns == [8.0, 8.0]
+
+
+def test_a_refusal_shows_the_actions_of_the_environment(tmp_path):
+    with pytest.raises(BotschoolError, match=r"actions are int32 numbers of shape \(2,\): use"):
+        trained("Acts-integers-v0", tmp_path, "dqn", learning_starts=10)
+
+
+def test_a_film_of_what_does_not_draw_is_refused(tmp_path):
+    """Neither the constructor nor the metadata knows pictures."""
+    player = trained("Unpainted-v0", tmp_path)
+    with pytest.raises(BotschoolError, match=r"draws no pictures .*--render none"):
+        next(player.transitions(0))
 
 
 @pytest.mark.parametrize("name", ["unbounded", "half bounded"])

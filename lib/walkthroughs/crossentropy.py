@@ -132,7 +132,7 @@ def fitted(action: np.ndarray, space):
     """Return an action that the environment accepts: a Gaussian may exceed the motor's force."""
     if isinstance(space, spaces.Discrete):
         return int(space.start + action)
-    return np.clip(action, space.low, space.high)
+    return np.clip(action, space.low, space.high).astype(space.dtype)
 
 
 # 5. The filter --------------------------------------------------------------------------------

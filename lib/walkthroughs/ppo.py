@@ -181,7 +181,7 @@ def fitted(actions: np.ndarray, space) -> np.ndarray:
     """Return actions that the environment accepts: a Gaussian may exceed the motor's force."""
     if isinstance(space, spaces.Discrete):
         return space.start + actions
-    return np.clip(actions, space.low, space.high)
+    return np.clip(actions, space.low, space.high).astype(space.dtype)
 
 
 def check_spaces(env: str, observation_space, action_space) -> None:

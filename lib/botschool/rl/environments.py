@@ -124,7 +124,10 @@ class Guard(gymnasium.Wrapper):
         if not np.isfinite(number):
             raise self._broken(f"its reward was {shown(reward)}")
         if abs(number) > LARGEST_REWARD:
-            raise self._broken(f"its reward was {number:g}, but learners handle {LARGEST_REWARD:g}")
+            raise self._broken(
+                f"its reward was {number:g}, but beyond {LARGEST_REWARD:g} sums of rewards "
+                "overflow in single precision"
+            )
         return number
 
     def _broken(self, what: str) -> BotschoolError:

@@ -21,7 +21,7 @@ from botschool.rl import spellings
 from botschool.rl.environments import described, make
 from botschool.rl.native import choosing
 from botschool.rl.parameters import ACTIVATIONS, OF_GOALS, OF_POLICY, complete, linear
-from botschool.rl.policies import WITH_IMAGES, check_policy, has_memory, is_own, policy_of
+from botschool.rl.policies import WITH_IMAGES, check_policy, has_memory, policy_of
 from botschool.rl.settings import VEC_ENVS, Settings, check_algorithm, defaults
 
 if TYPE_CHECKING:
@@ -117,7 +117,7 @@ def choose(
             f"observations are {described(env_made.observation_space)}): leave out --policy."
         )
     length, width = entry.pop("steps"), entry.pop("envs")
-    normalize = _normalize(given, entry.pop("normalize", False), env_made, policy)
+    normalize = _normalize(given, entry.pop("normalize", False), env_made)
     width = width if envs is None else envs
     entry |= {name: value for name, value in given.items() if name != "normalize"}
     model_class = algorithm_class(algo, policy, isinstance(env_made.action_space, spaces.Discrete))
@@ -160,9 +160,11 @@ def _share_batches(entry: dict[str, Any], model_class: type[BaseAlgorithm], envs
         entry["batch_size"] = spellings.batch_size(entry.pop("nminibatches"), n_steps, envs)
 
 
-def _normalize(given: dict[str, Any], usual: bool, env: gymnasium.Env, policy: str) -> bool:
-    images = policy in WITH_IMAGES or (is_own(policy) and is_image(env.observation_space))
-    possible = isinstance(env.observation_space, spaces.Box) and not images
+def _normalize(given: dict[str, Any], usual: bool, env: gymnasium.Env) -> bool:
+    seen = env.observation_space
+    # Stable-Baselines3 turns the axes of pictures, of small ones, too, after it has scaled them.
+    picture = isinstance(seen, spaces.Box) and len(seen.shape) == 3 and seen.dtype == np.uint8
+    possible = isinstance(seen, spaces.Box) and not picture
     wanted = given.get("normalize", usual and possible)
     if not isinstance(wanted, bool):
         raise BotschoolError(f"normalize is {wanted}, but must be true or false.")
@@ -175,15 +177,14 @@ def _normalize(given: dict[str, Any], usual: bool, env: gymnasium.Env, policy: s
 
 
 def _check_spaces(algo: str, name: str, env: gymnasium.Env) -> None:
-    if not isinstance(env.action_space, ACTIONS[algo]):
-        kind = type(env.action_space)
+    own = env.env.action_space
+    if not isinstance(own, ACTIONS[algo]):
+        kind = type(own)
         able = [other for other, kinds in ACTIONS.items() if kind in kinds and other != "her"]
         remedy = f"use --algo {' or '.join(able)}" if able else "wrap the environment"
         raise BotschoolError(
-            f"{algo} cannot be trained on {name}, whose actions are "
-            f"{described(env.action_space)}: {remedy}."
+            f"{algo} cannot be trained on {name}, whose actions are {described(own)}: {remedy}."
         )
-    own = env.env.action_space
     if algo in SCALED and isinstance(own, spaces.Box) and not has_limits(own):
         raise BotschoolError(
             f"{algo} scales its actions to their limits, but some actions of {name} have none: use "

@@ -55,7 +55,10 @@ class Player:
 
     def transitions(self, number: int) -> Iterator[Transition]:
         """Play episode `number` (from 0) and yield each step with its picture."""
-        env = self._make(render_mode="rgb_array")
+        try:
+            env = self._make(render_mode="rgb_array")
+        except BotschoolError as error:  # a constructor that does not know the option
+            raise _unseen(self.env) if "argument 'render_mode'" in str(error) else error from None
         try:
             observation, _ = env.reset(seed=seed_libraries(self._seed(number)))
             state, total, step, ended = None, 0.0, 0, False
@@ -116,8 +119,12 @@ class Player:
 def _picture(env, name: str) -> np.ndarray:
     frame = np.asarray(env.render())
     if frame.ndim != 3 or frame.shape[2] != 3:
-        raise BotschoolError(
-            f"{name} draws no pictures (render_mode rgb_array): use `botschool rl enjoy` with "
-            "--render none."
-        )
+        raise _unseen(name)
     return frame.astype(np.uint8)
+
+
+def _unseen(name: str) -> BotschoolError:
+    return BotschoolError(
+        f"{name} draws no pictures (render_mode rgb_array): use `botschool rl enjoy` with "
+        "--render none."
+    )
