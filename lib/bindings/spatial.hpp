@@ -31,13 +31,13 @@ struct Race {
   Race(const Race&) = delete;
 
   /// A row a link: parent, place, axis, lower and upper limit, torque, damping, stiffness, armature,
-  /// motor, mass, centre, inertia. A row a shape: link, place, half axis, radius.
+  /// motor, mass, centre, inertia, servo. A row a shape: link, place, half axis, radius.
   void declare(const std::vector<std::string>& given, Matrix<const double> rows,
                Matrix<const double> forms, const Firmness& firm, double seconds, int substeps,
                double height, double noise, double low, double high, double alive, double effort) {
     const std::size_t n = rows.shape(0), s = forms.shape(0);
-    if (rows.shape(1) != 24 || forms.shape(1) != 8 || given.size() != n)
-      throw std::invalid_argument("a link has a name and 24 numbers, and a shape has 8.");
+    if (rows.shape(1) != 25 || forms.shape(1) != 8 || given.size() != n)
+      throw std::invalid_argument("a link has a name and 25 numbers, and a shape has 8.");
     if (n < 2 || n > std::size_t(kMaxLinks) || s > std::size_t(kMaxBalls / 2))
       throw std::invalid_argument("a body has 2 to " + std::to_string(kMaxLinks) +
                                   " links and at most " + std::to_string(kMaxBalls / 2) +
@@ -46,14 +46,14 @@ struct Race {
     names = given;
     int motors = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      const double* r = rows.data() + i * 24;
+      const double* r = rows.data() + i * 25;
       if (r[0] >= double(i) || (i > 0 && r[0] < 0))
         throw std::invalid_argument("a link comes after its parent.");
       Link link{names[i].c_str(),
                 int(r[0]),
                 {r[1], r[2], r[3]},
                 {r[4], r[5], r[6]},
-                {r[7], r[8], r[9], r[10], r[11], r[12]},
+                {r[7], r[8], r[9], r[10], r[11], r[12], r[24]},
                 int(r[13]),
                 r[14],
                 {r[15], r[16], r[17]},

@@ -21,7 +21,11 @@ RUNNERS = tuple(
     for version in "05"
 )  # fmt: skip
 """Problems that take the option `alive`."""
-SPACE = (*(name for name in RUNNERS if name.startswith("Spatial")), "SpatialHumanoidStandup-v0")
+SPACE = (
+    *(name for name in RUNNERS if name.startswith("Spatial")),
+    "SpatialHumanoidStandup-v0",
+    "SpatialBalanceBot-v0",
+)
 
 RANGES: dict[str, tuple[str, float, float, float]] = {
     "alive": ("the reward for each step without a fall", 0.0, -100, 100),

@@ -189,7 +189,7 @@ class Urdf:
             number = motor if moves else -1
             rows.append(
                 [link.parent, *(link.place - above), *link.axis, *link.hinge]  # noqa: RUF005
-                + [number, mass, *centre, *six]
+                + [number, mass, *centre, *six, 0.0]
             )
             motor += moves
         if not motor:

@@ -111,7 +111,7 @@ struct Numbers3 {
     int parent, motor, along;  ///< along: the axis is x, y or z, forwards or backwards; else 3
     bool heavy, limited;
     T sign, place[3], axis[3], centre[3], mass, inertia[6];
-    T low, high, torque, damping, stiffness, armature;
+    T low, high, torque, damping, stiffness, armature, servo;
   };
   struct Touching {
     int link;
@@ -154,6 +154,7 @@ struct Numbers3 {
       to.damping = T(from.hinge.damping);
       to.stiffness = T(from.hinge.stiffness);
       to.armature = T(from.hinge.armature);
+      to.servo = T(from.hinge.servo);
     }
     const Balls from(solid);
     balls = from.count;

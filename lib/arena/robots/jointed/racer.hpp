@@ -173,7 +173,7 @@ struct Racer : ProblemBase {
     varied.next();
   }
 
- private:
+ protected:
   static V number(double x) { return V(float(x)); }
 
   void load(int first) {

@@ -115,8 +115,10 @@ struct Balls {
     for (int s = 0; s < solid.shapes; ++s) {
       const Shape& shape = solid.shape[s];
       const Place &p = shape.place, &h = shape.half;
-      add(solid, {shape.link, {p.x - h.x, p.y - h.y, p.z - h.z}, shape.radius + solid.margin});
-      add(solid, {shape.link, {p.x + h.x, p.y + h.y, p.z + h.z}, shape.radius + solid.margin});
+      const double radius = shape.radius + solid.margin;
+      const bool wheel = square(h) == 0;
+      add(solid, {shape.link, {p.x - h.x, p.y - h.y, p.z - h.z}, radius}, wheel);
+      add(solid, {shape.link, {p.x + h.x, p.y + h.y, p.z + h.z}, radius}, wheel);
     }
   }
 
@@ -129,9 +131,9 @@ struct Balls {
     return a.link == b.link && more > 0 && square({p.x - q.x, p.y - q.y, p.z - q.z}) <= more * more;
   }
 
-  void add(const Solid& solid, Ball next) {
-    // a ball on the hinge belongs to the parent as well
-    while (next.link > 0 && square(next.place) < 1e-12) {
+  void add(const Solid& solid, Ball next, bool wheel) {
+    // an end on the hinge belongs to the parent as well; a ball of its own there is a wheel
+    while (next.link > 0 && square(next.place) < 1e-12 && !wheel) {
       next.place = solid.link[next.link].place;
       next.link = solid.link[next.link].parent;
     }

@@ -363,6 +363,10 @@ struct Space {
     V torque = -(V(link.stiffness) * angle[i] + V(link.damping) * rate[i]);
     V extra(link.armature + link.damping * h * T(0.5));
     if (link.motor >= 0) torque += V(link.torque) * strength * action[link.motor];
+    if (link.servo > 0) {
+      torque += V(link.servo) * (action[link.motor] - rate[i]);
+      extra += V(h * link.servo);
+    }
     if (link.limited) {
       const V way = V(h) * rate[i];
       const V above = angle[i] - V(link.high), below = angle[i] - V(link.low);

@@ -1,5 +1,6 @@
 #include "spatial.hpp"
 
+#include "balancer.hpp"
 #include "racer.hpp"
 
 namespace botschool {
@@ -138,7 +139,7 @@ class Looked final : public SpatialBody {
 
 std::vector<std::unique_ptr<SpatialBody>> spatial_bodies() {
   std::vector<std::unique_ptr<SpatialBody>> bodies;
-  for (const Solid& solid : {kAnt, kHumanoid, kHumanoidStandup, kBall, kBox})
+  for (const Solid& solid : {kAnt, kHumanoid, kHumanoidStandup, kBalanceBot, kBall, kBox})
     bodies.push_back(spatial_body(solid));
   return bodies;
 }

@@ -17,6 +17,8 @@ struct Hinge {
   double torque = 0;         ///< at an action of 1
   double damping = 0, stiffness = 0;
   double armature = 0;  ///< moment of inertia of the motor, which turns with the hinge
+  double servo = 0;  ///< in space: the action is a speed (rad/s), and this, N m s/rad, times what
+                     ///< is missing after the substep is the torque
 };
 
 constexpr double kGravity = 9.81;
