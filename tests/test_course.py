@@ -2,10 +2,8 @@
 
 import ast
 import re
-import runpy
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -39,7 +37,6 @@ from botschool.grading.declare.exercise import (
 from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import grade
 from botschool.grading.report.screen import Screen
-from botschool.grading.run import absent
 from running import call, environment_of_command
 
 ROOT = Path(__file__).parents[1]
@@ -253,50 +250,30 @@ def test_exercise_9_is_graded_without_pybullet(without_pybullet):
     assert [task.points for task in result.tasks] == [task.max_points for task in tasks]
 
 
-def hide_pybullet(monkeypatch):
-    """Let PyBullet seem not to be installed, for graders and for what they import."""
-    monkeypatch.setattr(
-        declared, "missing_packages", lambda extras: ["pybullet"] if "pybullet" in extras else []
-    )
-    monkeypatch.setattr(absent, "find_spec", lambda name: None)
-    for name in (*absent.NAMES, "botschool.course.robots"):
-        monkeypatch.setitem(sys.modules, name, None)
-        monkeypatch.delitem(sys.modules, name)
-
-
-def test_exercise_10_is_graded_without_pybullet_as_far_as_it_can(monkeypatch, capsys):
+def test_a_task_without_its_packages_is_not_graded(monkeypatch, capsys):
     monkeypatch.setenv("BOTSCHOOL_COURSE", str(ROOT))
-    hide_pybullet(monkeypatch)
+    monkeypatch.setattr(
+        declared, "missing_packages", lambda extras: ["torch"] if "rl" in extras else []
+    )
     exercise = load_exercise(10, ROOT)
-    tasks = [exercise.find(id) for id in ("10.1", "10.3", "10.8", "10.10")]
+    tasks = [exercise.find(id) for id in ("10.1", "10.8", "10.10")]
     result = grade(exercise, BALANCING, tasks=tasks)
     assert [(task.points, task.graded) for task in result.tasks] == [
-        (12, True), (0, False), (8, True), (0, False),
+        (12, True), (8, True), (0, False),
     ]  # fmt: skip
-    (first, second, *_) = result.to_json()["tasks"]
-    assert "graded" not in first and second["graded"] is False
-    assert re.match(
-        r"Not graded: this task needs pybullet, not installed here: ", second["message"]
-    )
+    (first, _, last) = result.to_json()["tasks"]
+    assert "graded" not in first and last["graded"] is False
+    assert re.match(r"Not graded: this task needs torch, not installed here: ", last["message"])
     screen = Screen()
-    screen.task(result.tasks[1])
+    screen.task(result.tasks[2])
     screen.end(result, whole=False)
     told = capsys.readouterr().out
-    assert "– of 8" in told and "20 of 36 points (16 of them could not be graded" in told
-    with pytest.raises(BotschoolError, match=r"Exercise 10 needs pybullet: .*botschool\[pybullet"):
-        exercise.require_some([exercise.find("10.3")])
+    assert "– of 8" in told and "20 of 28 points (8 of them could not be graded" in told
+    with pytest.raises(BotschoolError, match=r"Exercise 10 needs torch: .*botschool\[rl\]"):
+        exercise.require_some([exercise.find("10.10")])
     exercise.require_some(exercise.tasks)
-    with pytest.raises(BotschoolError, match="pybullet"):
+    with pytest.raises(BotschoolError, match="torch"):
         exercise.require()
-
-
-def test_a_file_that_imports_pybullet_is_loaded_without_it(monkeypatch):
-    hide_pybullet(monkeypatch)
-    absent.stand_in()
-    names = runpy.run_path(str(BALANCING))
-    assert names["package_files"]().keys() == {"pyproject.toml", "balance_bot/__init__.py"}
-    with pytest.raises(ModuleNotFoundError, match="PyBullet is not installed here"):
-        names["BalanceBotEnv"]()
 
 
 def test_a_picture_of_gaits_shows_every_robot(tmp_path):

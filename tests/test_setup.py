@@ -115,9 +115,16 @@ def test_with_all_wheels_there_is_no_notice(setup):
 
 @pytest.mark.skipif(not shutil.which("sh"), reason="needs a shell")
 def test_an_exercise_without_wheels_says_how_to_get_them(setup):
-    code, _, errors, _, stamps = setup("extra", "pybullet", WITHOUT="pybullet")
+    code, _, errors, _, stamps = setup("extra", "box2d", WITHOUT="box2d")
     assert code == 2 and not stamps
-    assert errors.startswith("error: No wheels for Python 3.13") and "exercise 10" in errors
+    assert errors.startswith("error: No wheels for Python 3.13") and "exercise 5" in errors
+
+
+@pytest.mark.skipif(not shutil.which("sh"), reason="needs a shell")
+def test_exercise_10_does_without_pybullet_where_it_has_no_wheel(setup):
+    code, out, errors, _, stamps = setup("extra", "pybullet", WITHOUT="pybullet")
+    assert (code, errors, stamps) == (0, "", [".extra-pybullet"])
+    assert "Exercise 10 simulates without it" in out
 
 
 @pytest.mark.skipif(not shutil.which("sh"), reason="needs a shell")

@@ -25,10 +25,9 @@ import xml.etree.ElementTree as ElementTree
 
 import gymnasium
 import numpy as np
-import pybullet
-import pybullet_data
 
 from botschool.course import Robot
+from botschool.course.bullet import pybullet, pybullet_data
 from botschool.course.robots import robot_file
 
 PLANE = os.path.join(pybullet_data.getDataPath(), "plane.urdf")

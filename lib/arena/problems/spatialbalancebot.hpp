@@ -54,8 +54,8 @@ struct SpatialBalanceBot : Racer<L> {
       const double lean = arctangent(2 * (w * x + y * z), w * w - x * x - y * y + z * z);
       const double turning = (1 - 2 * (y * y + z * z)) * spin[0][l] +
                              2 * (x * y - w * z) * spin[1][l] + 2 * (x * z + w * y) * spin[2][l];
-      out[l] = static_cast<T>(lean + varied.noise(l, 0, 0.02));
-      out[L + l] = static_cast<T>(turning + varied.noise(l, 1, 0.2));
+      out[l] = static_cast<T>(varied.seen(l, 0, lean, 0.02));
+      out[L + l] = static_cast<T>(varied.seen(l, 1, turning, 0.2));
       out[2 * L + l] = static_cast<T>(state[rows.count()][l]);
     }
   }
@@ -65,7 +65,7 @@ struct SpatialBalanceBot : Racer<L> {
     for (int first = 0; first < L; first += kWidth) {
       double target[kWidth], goes[kWidth], good[kWidth];
       for (int l = 0; l < kWidth; ++l) {
-        const double given = varied.delayed(first + l, 0, action[first + l]);
+        const double given = varied.arrived(first + l, 0, action[first + l]);
         target[l] = limited(speed[first + l] + limited(given, -1, 1), -kFastest, kFastest);
       }
       this->load(first);

@@ -33,6 +33,8 @@ POINTS = 100
 """Points of every exercise."""
 ABSENT = "botschool.grading.run.absent"
 """The module that replaces packages which are not installed but which a submission imports."""
+STANDS_IN = ("pybullet",)
+"""Extras for which something stands in where they are not installed."""
 
 
 Check = Callable[[Any], None]
@@ -156,7 +158,7 @@ class Exercise:
         packages: the exercise's extras that this task needs; None for all. Packages of other extras
         may be missing.
         """
-        extras = self.extras if packages is None else packages
+        extras = _wanted(self.extras if packages is None else packages)
         self.tasks.append(Task(id, title, seconds, memory, needs, refused, extras, self))
         return self.tasks[-1]
 
@@ -175,14 +177,14 @@ class Exercise:
 
         tasks: None for all of the exercise, and for running its file.
         """
-        wanted = self.extras
+        wanted = _wanted(self.extras)
         if tasks is not None:
-            wanted = tuple(e for e in self.extras if any(e in task.extras for task in tasks))
+            wanted = tuple(e for e in wanted if any(e in task.extras for task in tasks))
         if missing := missing_packages(wanted):
             raise BotschoolError(
                 f"Exercise {self.number} needs {listed(missing)}: install this with 'make "
                 f"test-ex{self.number}' or 'pip install "
-                f"botschool[{','.join(wanted)}]'.{_only_on(wanted)}"
+                f"botschool[{','.join(wanted)}]'."
             )
 
     def require_some(self, tasks: Iterable[Task]) -> None:
@@ -234,6 +236,10 @@ class Exercise:
         raise BotschoolError(f"Exercise {self.number} has no task {task}; its tasks are {known}.")
 
 
+def _wanted(extras: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(extra for extra in extras if extra not in STANDS_IN)
+
+
 def cannot_be_graded(task: Task) -> str:
     """Return why a task cannot be graded on this machine; "" if it can."""
     missing = missing_packages(task.extras)
@@ -241,16 +247,8 @@ def cannot_be_graded(task: Task) -> str:
         return ""
     return (
         f"Not graded: this task needs {listed(missing)}, not installed here: "
-        f"pip install 'botschool[{','.join(task.extras)}]'.{_only_on(task.extras)}"
+        f"pip install 'botschool[{','.join(task.extras)}]'."
     )
-
-
-def _only_on(extras: tuple[str, ...]) -> str:
-    """Return a sentence on packages that exist for some systems only; "" if there are none."""
-    here = sys.platform == "linux" and sys.version_info < (3, 12)
-    if "pybullet" not in extras or here:
-        return ""
-    return " PyBullet has wheels for Linux with Python 3.10 or 3.11 only."
 
 
 def folder_of(number: int, root: Path | None = None) -> Path:
