@@ -178,6 +178,20 @@ def test_observation_reward_and_end():
     assert stepper.observation[2] == 24.6
 
 
+def test_a_wheel_turns_with_its_link(tmp_path):
+    """Of this robot, and of a declared one: its wheels drive it."""
+    (tmp_path / "cart.urdf").write_text(ROBOT)
+    race = problems.make("SpatialBody-v0", options=f"urdf='{tmp_path}/cart.urdf'").race
+    for body in (_core.SpatialBody("balancebot"), _core.SpatialBody(race)):
+        wheels = [ball for ball in body.table["balls"] if ball[2] == 0.1]
+        assert [ball[0] for ball in wheels] == [1, 2]
+    stepper = lean(0.0)
+    for _ in range(10):
+        stepper.step(np.array([1.0]))
+    place = stepper.state[:3]
+    assert place[1] > 0.02 and place[0] == pytest.approx(0, abs=1e-4)
+
+
 def test_starts():
     stepper, seen = _core.make_stepper(NAME), []
     for seed in range(500):

@@ -284,7 +284,7 @@ def getCameraImage(
             origin, axes = places[int(link)][0], places[int(link)][1:]
             x, y = seen(middle := origin + np.array(form[:3]) @ axes)
             half, r = np.array(form[3:6]) @ axes, scale * form[6]
-            draw.line((*seen(middle - half), *seen(middle + half)), fill="#0072b2", width=14)
+            draw.line((*seen(middle - half), *seen(middle + half)), fill="#0072b2", width=26)
             draw.ellipse((x - r, y - r, x + r, y + r), fill="#404047")
             draw.line((x, y, *seen(middle + form[6] * axes[2])), fill="#eef2f5", width=3)
     return width, height, np.asarray(image).ravel(), (), ()
