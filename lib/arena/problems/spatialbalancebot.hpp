@@ -1,5 +1,5 @@
 // A body on two wheels that should stay upright, in space: the twin of what exercise 10 builds.
-// docs/specification.md, "BalanceBot".
+// docs/specification.md, "SpatialBalanceBot-v0".
 #pragma once
 
 #include "../robots/jointed/balancer.hpp"
