@@ -28,7 +28,9 @@ _TEST = re.compile(
 _MAGIC = re.compile(r"\s*[%!?]|.*\?\s*$|[\s\w,]+=\s*[%!]")
 _PYTHON_CELL = re.compile(r"%%(time|timeit|capture|prun)\b")
 _BUILTINS = {name for name in dir(builtins) if not name.startswith("_")}
-_GIVES_BUILTIN = re.compile(rf"^[ \t]*(?:for[ \t]+)?(?:{'|'.join(sorted(_BUILTINS))})\b", re.MULTILINE)
+_GIVES_BUILTIN = re.compile(
+    rf"^[ \t]*(?:for[ \t]+)?(?:{'|'.join(sorted(_BUILTINS))})\b", re.MULTILINE
+)
 _IMPORT = """
 try:
     {text}
