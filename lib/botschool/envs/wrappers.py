@@ -22,3 +22,11 @@ class AliveBonus(gymnasium.Wrapper):
         if not terminated:
             reward += self.bonus
         return observation, reward, terminated, truncated, info
+
+
+class LimbsApart(gymnasium.Wrapper):
+    """Lets the parts of a robot of MuJoCo touch the ground only, and not each other."""
+
+    def __init__(self, env: gymnasium.Env) -> None:
+        super().__init__(env)
+        self.unwrapped.model.geom_contype[1:] = 0
