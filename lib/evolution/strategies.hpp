@@ -24,7 +24,7 @@ struct Hyperparameters {
   double stepsize;      ///< of OpenAI-ES
   double deviation;     ///< noiseStdDev of OpenAI-ES, mutrate of SSS
   int wdecay = 0;       ///< of OpenAI-ES
-  bool symseed = true;  ///< of OpenAI-ES
+  int symseed = 1;      ///< of OpenAI-ES
 };
 
 /// Indices from the largest value to the smallest, or with `rising` the reverse; the earlier wins
@@ -117,9 +117,9 @@ class OpenAIES final : public Strategy {
     candidates.resize(2 * directions * n);
     mirror(centre_.x, samples_, given_.deviation, candidates.data());
     seeds.resize(2 * directions);
-    const std::uint64_t used = given_.symseed ? directions : 2 * directions;
+    const std::size_t sharing[] = {1, 2, seeds.size()}, alike = sharing[given_.symseed];
     for (std::size_t c = 0; c < seeds.size(); ++c)
-      seeds[c] = seed_ + generation_ * used + (given_.symseed ? c / 2 : c);
+      seeds[c] = seed_ + generation_ * (seeds.size() / alike) + c / alike;
   }
 
   void tell(const Values& fitness) override {

@@ -270,7 +270,7 @@ Run* run(const Task* task, const double* evaluation, const double* algorithm, do
     return new Coevolution(task->info, task->layout, e, rules, seed, play);
   }
   const Hyperparameters h{whole(algorithm[1]), algorithm[2], algorithm[3], whole(algorithm[4]),
-                          algorithm[5] != 0};
+                          whole(algorithm[5])};
   return new Evolution(task->info, task->layout, e, h, algorithm[0] != 0, seed, play);
 }
 EXPORT(advance) double advance(Run* run) {

@@ -18,8 +18,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from botschool.evolution.algorithm import RunConfig, algorithm
-from botschool.evolution.algorithms.openaies import AroundCentre
-from botschool.policies.hyperparameters import NO_YES, hyper
+from botschool.evolution.algorithms.openaies import SAME_SEED, AroundCentre
+from botschool.policies.hyperparameters import hyper
 
 
 @dataclass
@@ -32,7 +32,7 @@ class ARSConfig(RunConfig):
     )
     ntop: int = hyper(0, "number of best directions that count (0 = all)", low=0, high=1000000)
     noiseStdDev: float = hyper(0.05, "standard deviation of perturbations", above=0, high=1000)
-    symseed: int = hyper(1, "both candidates of a perturbation meet the same seed", choices=NO_YES)
+    symseed: int = hyper(1, "which candidates meet the same seed", choices=SAME_SEED)
 
 
 def shift(fitness: np.ndarray, samples: np.ndarray, ntop: int) -> np.ndarray:

@@ -21,11 +21,13 @@ import numpy as np
 from botschool.evolution.algorithm import Initial, RunConfig, Stateful, algorithm, mean_absolute
 from botschool.evolution.algorithms.drawing import draw
 from botschool.linear import power
-from botschool.policies.hyperparameters import NO_YES, WEIGHT_DECAY, hyper
+from botschool.policies.hyperparameters import WEIGHT_DECAY, hyper
 from botschool.seeds import generator
 
 BETA1, BETA2, EPSILON = 0.9, 0.999, 1e-8
 DECAY = 0.005
+SAME_SEED = {0: "none", 1: "both of a perturbation", 2: "all of a generation"}
+"""Values of symseed."""
 
 
 @cache
@@ -92,7 +94,7 @@ class OpenAIESConfig(RunConfig):
     )
     noiseStdDev: float = hyper(0.02, "standard deviation of perturbations", above=0, high=1000)
     wdecay: int = hyper(0, "pull of the centre towards 0", choices=WEIGHT_DECAY)
-    symseed: int = hyper(1, "both candidates of a perturbation meet the same seed", choices=NO_YES)
+    symseed: int = hyper(1, "which candidates meet the same seed", choices=SAME_SEED)
 
 
 class AroundCentre(Stateful):
@@ -107,8 +109,8 @@ class AroundCentre(Stateful):
         self.generation = 0
         count = 2 * config.samplesize
         numbers = np.arange(count, dtype=np.uint64)
-        self._own_seeds = numbers // np.uint64(2) if config.symseed else numbers
-        self._seeds_used = config.samplesize if config.symseed else count
+        self._own_seeds = numbers // np.uint64((1, 2, count)[config.symseed])
+        self._seeds_used = (count, config.samplesize, 1)[config.symseed]
         self.centre = initial(0)
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
