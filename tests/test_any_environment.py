@@ -10,7 +10,7 @@ import pytest
 from gymnasium import spaces
 
 from botschool import config, problems, wrappers
-from botschool.envs.wrappers import AliveBonus
+from botschool.envs.wrappers import AliveBonus, LimbsApart
 from botschool.errors import BotschoolError
 from botschool.policies.policy import Policy
 from botschool.problems import Episodes, making
@@ -231,6 +231,33 @@ def test_an_alive_bonus_is_paid_for_steps_that_do_not_end_the_episode():
         _, reward, fallen, _, _ = env.step(1)
         rewards.append(reward)
     assert len(rewards) > 5 and rewards == [1.5] * (len(rewards) - 1) + [1.0]
+
+
+@pytest.mark.parametrize("apart", [False, True])
+def test_limbs_apart_touch_the_ground_only(apart):
+    """A humanoid that is dropped and kicks its legs together."""
+    pytest.importorskip("mujoco")
+    env = gymnasium.make("Humanoid-v5", terminate_when_unhealthy=False)
+    env = LimbsApart(env) if apart else env
+    env.reset(seed=1)
+    touched = set()
+    for _ in range(200):
+        env.step(0.4 * np.sign(np.random.default_rng(1).normal(size=17)))
+        contacts = env.unwrapped.data.contact
+        touched |= {0 in pair for pair in contacts.geom.tolist()}
+    assert touched == ({True} if apart else {True, False})
+
+
+@pytest.mark.parametrize("body", ["ant", "humanoid"])
+def test_robots_in_space_play_in_mujoco(body):
+    """The files' policies read and move as much in MuJoCo as in lanes."""
+    pytest.importorskip("mujoco")
+    folder = TESTS.parent / "data" / "experiments"
+    found = [config.load(folder / f"spatial{body}_{where}.ini") for where in ("linear", "mujoco")]
+    lanes, mujoco = (problems.of(each) for each in found)
+    sizes = [p.policy(e.policy).genotype_size for p, e in zip((lanes, mujoco), found, strict=True)]
+    assert sizes[0] == sizes[1] and lanes.fps == pytest.approx(mujoco.fps, rel=0.02)
+    assert lanes.interface.high == pytest.approx(mujoco.interface.high)
 
 
 @pytest.mark.parametrize("name", ["CartPole-v1", "Pendulum-v0", "ErDiscrim", "envSwingupCustom"])

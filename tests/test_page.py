@@ -52,7 +52,15 @@ PROBLEMS = (
 
 def experiment_of(problem, algo, **policy):
     given = {"episodes": 2, "pepisodes": 3, "maxsteps": 100, "nhiddens": 7, "bias": 1} | policy
-    evolving = {"popsize": 6} if algo == "SSS" else {"samplesize": 4, "wdecay": len(problem) % 3}
+    evolving = (
+        {"popsize": 6}
+        if algo == "SSS"
+        else {
+            "samplesize": 4,
+            "wdecay": len(problem) % 3,
+            "symseed": (len(problem) + 1) % 3,
+        }
+    )
     return from_dict(
         {
             "exp": {"environment": problem, "algo": algo},

@@ -28,5 +28,6 @@ class LimbsApart(gymnasium.Wrapper):
     """Lets the parts of a robot of MuJoCo touch the ground only, and not each other."""
 
     def __init__(self, env: gymnasium.Env) -> None:
+        """Let parts collide only with what collides with everything: geom 0, the ground."""
         super().__init__(env)
-        self.unwrapped.model.geom_contype[1:] = 0
+        self.unwrapped.model.geom_conaffinity[1:] = 0
