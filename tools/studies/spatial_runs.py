@@ -1,11 +1,11 @@
 """How soon robots in space run, and how long: seeds of an experiment, each until it meets its goal.
 
-    python tools/studies spatial_runs EXPERIMENT SECONDS SEED...     measures, one seed after the other
+    python tools/studies spatial_runs EXPERIMENT SECONDS SEED...
 
 EXPERIMENT is a file of data/experiments, SECONDS of the processor the longest search. A run is that
-of `botschool es -f EXPERIMENT -s SEED`, on one core. Every second its best post-evaluated robot runs
-new episodes, which does not count in the times and changes nothing. The run ends when the ant runs
-3 m/s, or the humanoid lives 20 s, without a fall in any of them. Results go to
+of `botschool es -f EXPERIMENT -s SEED`, on one core. Every second of it, its best post-evaluated
+robot runs new episodes, which does not count in the times and changes nothing. The run ends when
+the ant runs 3 m/s, or the humanoid lives 20 s, without a fall in any of them. Results go to
 tools/studies/data/spatial.jsonl, robots to results/spatial.
 """
 
@@ -77,6 +77,7 @@ def search(name: str, seed: int, longest: float) -> dict:
             continue
         looked, record = spent, run.record
         seen = trial.measure(record.bestg)
+        save_npy(folder / f"{name}S{seed}.npy", record.bestg)
         point = {"seconds": round(spent, 1), "steps": record.steps, **seen}
         curve.append(point)
         if len(curve) % 10 == 0:
@@ -88,7 +89,6 @@ def search(name: str, seed: int, longest: float) -> dict:
                 print(name, seed, goal, point, flush=True)
         if goal in met:
             break
-    save_npy(folder / f"{name}S{seed}.npy", run.record.bestg)
     return {"experiment": name, "seed": seed, "met": met, "end": curve[-1], "curve": curve}
 
 
