@@ -42,7 +42,7 @@ def table(runs: dict[str, list[dict]]) -> None:
             last = (
                 f"{shown(end)}: {end['speed']:.2f} m/s, {end['falls']} falls, {end['life']:.0f} s"
             )
-            print(f"| {name}.ini | {run['seed']} | {' | '.join(cells)} | {last} |")
+            print(f"| {name} | {run['seed']} | {' | '.join(cells)} | {last} |")
 
 
 def draw(runs: dict[str, list[dict]]) -> None:
@@ -59,7 +59,7 @@ def draw(runs: dict[str, list[dict]]) -> None:
         for number, name in enumerate(sorted(n for n in runs if body in n)):
             for i, run in enumerate(runs[name]):
                 rows = np.array([(p["seconds"], p[what]) for p in run["curve"]])
-                label = f"{name}.ini" if i == 0 else None
+                label = f"{name}" if i == 0 else None
                 axes.plot(*rows.T, color=f"C{number}", lw=1, alpha=0.8, label=label)
         axes.legend(fontsize=8)
         axes.grid(alpha=0.3)
