@@ -385,3 +385,18 @@ def test_pytest_collects_tasks_and_checks(course):
     assert "1 failed, 1 passed" in ran and "Traceback" not in ran
     ran = subprocess.run([*command, "-k", "4.5"], capture_output=True, text=True).stdout
     assert "1 passed, 1 deselected" in ran
+
+
+def test_lists_of_arrays_are_changed_one_at_a_time(tmp_path):
+    made = Exercise(4, "Tiny", file="tiny.py")
+
+    @same(made.task("4.1", "Mixing"), 100, "mixed")
+    def mixes(rng):
+        yield [rng.normal(size=3)], [rng.normal(size=3)], 0.5, 3
+
+    made.knows(SOLUTION)
+    file = tmp_path / "tiny.py"
+    file.write_text(SOLUTION)
+    assert grade(made, file).points == 100
+    file.write_text(SOLUTION + WRONG["cache without the first"])
+    assert grade(made, file).points == 0

@@ -276,7 +276,7 @@ def _changed(value: Any, other: Any) -> Iterator[Any]:
             yield other
     elif isinstance(value, dict):
         yield from _one_changed(value, other)
-    elif value != other and type(value) is type(other):
+    elif type(value) is type(other) and pack([value]) != pack([other]):
         if not isinstance(value, (list, tuple)) or len(value) == len(other):
             yield other
     elif isinstance(value, int) and not isinstance(value, bool) and value >= 2:
