@@ -9,7 +9,7 @@ def progress(distance, duration):
 
 # %% fallen_get_nothing loses 9.1
 # Gives a fallen robot 0, but -1 is asked for.
-# says: The fallen get 0
+# says: this
 _alive_bonus = alive_bonus
 
 
@@ -28,21 +28,21 @@ def alive_bonus(robot, height, pitch, touching):
 
 # %% progress_backwards loses 9.1
 # Gives a negative progress when the robot comes nearer, but it should be positive then.
-# says: sign is wrong: it is reversed
+# says: this
 def progress(distance, duration):
     return (distance[1:] - distance[:-1]) / duration
 
 
 # %% progress_in_metres loses 9.1
 # Leaves out the division by the duration of a step, but metres per second are asked for.
-# says: duration of a step is left out
+# says: this
 def progress(distance, duration):
     return distance[:-1] - distance[1:]
 
 
 # %% electricity_of_sums loses 9.2
 # Adds up the costs of the joints in each step, but their mean is asked for.
-# says: a sum for a mean|Sums over the joints
+# says: this
 _electricity = electricity
 
 
@@ -52,14 +52,14 @@ def electricity(robot, actions, speeds):
 
 # %% electricity_with_sign loses 9.2
 # Takes the mean of action * speed with its sign, but |action * speed| of each joint should be taken first.
-# says: Braking is paid for
+# says: this
 # -     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
 # +     cost = 2.0 * (actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
 
 
 # %% humanoid_pays_like_others loses 9.2
 # Charges a Humanoid as much as the other robots, but it should pay 4.25 times as much.
-# says: pays as much as other robots
+# says: this
 _electricity = electricity
 
 
@@ -69,14 +69,14 @@ def electricity(robot, actions, speeds):
 
 # %% upper_limits_only loses 9.2
 # Counts only the joints above 0.99, but those below -0.99 are at their limits, too.
-# says: those below -0.99
+# says: this
 def joints_at_limit(positions):
     return -0.1 * (positions > 0.99).sum(axis=1)
 
 
 # %% components_with_the_sum loses 9.3
 # Returns a further component, "reward", but only the four components are asked for.
-# says: does not have: \['reward'\]
+# says: this
 _components_v0 = components_v0
 
 
@@ -107,7 +107,7 @@ def reward_v5(trajectory):
 
 # %% limits_for_all loses 9.4
 # Charges Hopper and Walker2D for joints at their limits, but their reward should be the progress alone.
-# says: cost this robot nothing
+# says: this
 _reward_v5 = reward_v5
 
 
@@ -148,7 +148,7 @@ def gait(trajectory):
 
 # %% mean_effort loses 9.5
 # Takes the mean over the joints for the effort, but their sum is asked for.
-# says: is the mean over the joints
+# says: this
 _planar_v0 = planar_v0
 
 
@@ -549,7 +549,7 @@ def evolve_both(robot, steps, seeds):
 
 # %% steps_of_pybullet loses 9.3
 # Uses 0.0165 s for a step, whatever the trajectory says, but its "duration" should be used.
-# says: trajectory's 'duration' is asked for
+# says: this
 # -         "progress": progress(trajectory["distance"], trajectory["duration"]),
 # -         "alive": alive_bonus(
 # +         "progress": progress(trajectory["distance"], 0.0165),
@@ -575,7 +575,7 @@ def evolve_both(robot, steps, seeds):
 
 # %% seeds_sorted loses 9.6
 # Sorts the seeds and uses each only once, but a row for each seed of the list, in its order, is asked for.
-# says: It is the robot of the seed
+# says: this
 # -         version: np.array([Runner(f"{robot}-{version}").evolve(steps, seed) for seed in seeds])
 # +         version: np.array(
 # +             [Runner(f"{robot}-{version}").evolve(steps, seed) for seed in sorted(set(seeds))]
@@ -584,14 +584,14 @@ def evolve_both(robot, steps, seeds):
 
 # %% median_of_the_episodes loses 9.6
 # Takes the median over the episodes, but the mean is asked for.
-# says: median over the episodes
+# says: this
 # -             means.append([np.mean([each[name] for each in gaits]) for name in gaits[0]])
 # +             means.append([np.median([each[name] for each in gaits]) for name in gaits[0]])
 
 
 # %% seed_runs_on_from_row_to_row loses 9.6
 # Goes on counting the seed from one robot to the next, but each robot should begin with the seed itself.
-# says: runs on from row to row
+# says: this
 # -             gaits = [gait(runner.record(genotype, seed + i)) for i in range(episodes)]
 # +             first = seed + episodes * len(means)
 # +             gaits = [gait(runner.record(genotype, first + i)) for i in range(episodes)]
@@ -599,7 +599,7 @@ def evolve_both(robot, steps, seeds):
 
 # %% the_effort_reduces_the_income loses 9.5
 # Subtracts the effort from the income for "standing", but it should be left out.
-# says: effort is subtracted from the income|this slip
+# says: this
 # -         "standing": alive / (alive + moved) if alive + moved > 0 else 0.0,
 # +         "standing": alive / float(alive + moved + parts["effort"].sum())
 # +         if alive + moved > 0
@@ -608,14 +608,14 @@ def evolve_both(robot, steps, seeds):
 
 # %% square_of_the_mean_action loses 9.2
 # Squares the mean of the actions, but the mean of the squared actions is asked for.
-# says: square of the mean action
+# says: this
 # -     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
 # +     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * actions.mean(axis=1) ** 2
 
 
 # %% radians_for_tens loses 9.2
 # Multiplies the mean of |action * speed| by 20, but 2 is asked for: the speeds should stay in units of 10 rad/s.
-# says: should stay in units of 10
+# says: this
 # -     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
 # +     cost = 20.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
 
@@ -633,14 +633,14 @@ def alive_bonus(robot, height, pitch, touching):
 
 # %% fallen_humanoid_pays_two loses 9.1
 # Gives a fallen Humanoid -2, but -1 is asked for.
-# says: should get -1
+# says: this
 # -         return np.where(height > 0.78, 2.0, -1.0)
 # +         return np.where(height > 0.78, 2.0, -2.0)
 
 
 # %% walker_as_an_ant loses 9.1
 # Judges a Walker2D as an Ant, by height > 0.26 alone, but height > 0.8 and |pitch| < 1 are asked for.
-# says: limit of the Ant|when an Ant|not above 0.8
+# says: this
 # -     if robot == "Ant":
 # -         return np.where(height > 0.26, 1.0, -1.0)
 # +     if robot in ("Ant", "Walker2D"):
@@ -649,7 +649,7 @@ def alive_bonus(robot, height, pitch, touching):
 
 # %% components_added_up loses 9.3
 # Gives the sum of each component over the episode, but an array with a number for each step is asked for.
-# says: This is the sum over the steps
+# says: this
 _components_v0 = components_v0
 
 
@@ -659,14 +659,14 @@ def components_v0(trajectory):
 
 # %% pitch_for_height loses 9.3
 # Exchanges height and pitch for the alive bonus, but alive_bonus takes height first.
-# says: alive_bonus takes height first
+# says: this
 # -             robot, trajectory["height"], trajectory["pitch"], trajectory["touching"]
 # +             robot, trajectory["pitch"], trajectory["height"], trajectory["touching"]
 
 
 # %% mean_beyond_and_size_of_heading loses 9.4
 # Takes the mean over the joints for beyond, and |heading|, but the sum over the joints and heading^2 are asked for.
-# says: but their sum is asked for\. \|heading\| is taken
+# says: this
 # -         beyond = np.maximum(np.abs(positions) - 1, 0).sum(axis=1)
 # -         reward = reward + 1 - 10 * beyond - 0.1 * trajectory["heading"] ** 2
 # +         beyond = np.maximum(np.abs(positions) - 1, 0).mean(axis=1)
@@ -675,7 +675,7 @@ def components_v0(trajectory):
 
 # %% bonus_of_version_0 loses 9.4
 # Gives a Humanoid 2 while it stands and -1 when it has fallen, but 1 in every step is asked for.
-# says: gets the alive bonus of version 0
+# says: this
 # -         reward = reward + 1 - 10 * beyond - 0.1 * trajectory["heading"] ** 2
 # +         alive = np.where(trajectory["height"] > 0.78, 2, -1)
 # +         reward = reward + alive - 10 * beyond - 0.1 * trajectory["heading"] ** 2
@@ -690,7 +690,7 @@ def components_v0(trajectory):
 
 # %% limits_of_pybullet loses 9.5
 # Judges planar runners by the limits of PyBullet's Hopper and Walker2D (height > 0.8, |pitch| < 1), but they have their own.
-# says: their own table
+# says: this
 _planar_v0 = planar_v0
 
 
@@ -702,14 +702,14 @@ def planar_v0(trajectory):
 
 # %% standing_by_moving loses 9.5
 # Divides sum(alive) by sum(progress) for "standing", but it should be divided by the sum of both.
-# says: divided by the sum of both
+# says: this
 # -         "standing": alive / (alive + moved) if alive + moved > 0 else 0.0,
 # +         "standing": alive / moved if moved > 0 else 0.0,
 
 
 # %% backwards_is_subtracted loses 9.5
 # Subtracts steps backwards from the income for "standing", which may even become negative, but they should be left out.
-# says: Steps backwards are subtracted
+# says: this
 # -     alive, moved = (float(np.maximum(parts[key], 0).sum()) for key in ("alive", "progress"))
 # +     alive, moved = (float(parts[key].sum()) for key in ("alive", "progress"))
 # -         "standing": alive / (alive + moved) if alive + moved > 0 else 0.0,
@@ -718,14 +718,14 @@ def planar_v0(trajectory):
 
 # %% sums_over_the_episodes loses 9.6
 # Gives the sums over the episodes, but their means are asked for.
-# says: sums over the episodes
+# says: this
 # -             means.append([np.mean([each[name] for each in gaits]) for name in gaits[0]])
 # +             means.append([np.sum([each[name] for each in gaits]) for name in gaits[0]])
 
 
 # %% means_over_the_rows loses 9.6
 # Gives a number for each episode, the mean over the robots, but a number for each robot, the mean over its episodes, is asked for.
-# says: for each episode, the mean over the rows
+# says: this
 # -         means = []
 # -         for genotype in rows:
 # -             gaits = [gait(runner.record(genotype, seed + i)) for i in range(episodes)]
@@ -736,14 +736,14 @@ def planar_v0(trajectory):
 
 # %% backwards_leaves_no_income loses 9.5
 # Subtracts steps backwards from the income, and gives 0.0 for "standing" if the rest is not above 0, but they should be left out.
-# says: Steps backwards are subtracted
+# says: this
 # -     alive, moved = (float(np.maximum(parts[key], 0).sum()) for key in ("alive", "progress"))
 # +     alive, moved = (float(parts[key].sum()) for key in ("alive", "progress"))
 
 
 # %% electricity_by_time loses 9.3
 # Multiplies the electricity by the duration of a step, but the duration should not matter for it.
-# says: multiplied by the duration
+# says: this
 # -         "electricity": electricity(robot, trajectory["actions"], trajectory["speeds"]),
 # +         "electricity": trajectory["duration"]
 # +         * electricity(robot, trajectory["actions"], trajectory["speeds"]),
@@ -751,14 +751,13 @@ def planar_v0(trajectory):
 
 # %% recorded_as_hoppers loses 9.6
 # Records all robots as PlanarHoppers, but the robot that `robot` names is asked for.
-# says: the `robot` that is given
 # -     runner, table = Runner(f"{robot}-v5"), {}
 # +     runner, table = Runner("PlanarHopper-v5"), {}
 
 
 # %% humanoid_pays_for_work_alone loses 9.3
 # Multiplies only the part with |action * speed| by 4.25 for a Humanoid, but the part with the squared action should be multiplied, too.
-# says: this|its mean squared action should be, too
+# says: this
 def components_v0(trajectory, _components=components_v0):
     parts = _components(trajectory)
     if trajectory["robot"] == "Humanoid":
@@ -769,7 +768,7 @@ def components_v0(trajectory, _components=components_v0):
 
 # %% components_kept loses 9.3
 # Gives the components of an earlier trajectory of the same robot and length again, but each trajectory should have its own.
-# says: something stays from call to call
+# says: stays from an earlier call
 _components_v0, kept_components = components_v0, {}
 
 
@@ -926,7 +925,7 @@ def joints_at_limit(positions: np.ndarray) -> np.ndarray:
 
 # %% last_episode_counts_half loses 9.6
 # Counts the last episode half, the one before it a quarter, and so on, but all episodes should count alike.
-# says: this|counts half
+# says: this
 import numpy as np
 
 
