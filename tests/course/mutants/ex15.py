@@ -50,7 +50,7 @@ def chase(predator, prey, maxsteps=2000):
 
 # %% poses_not_copied loses 15.1
 # Gives the last poses for every step, but those at the start and after each step are asked for (arena.robots changes: copy it each time).
-# says: Keep a copy each time \(.copy\(\)\)
+# says: this
 _chase = chase
 
 
@@ -62,7 +62,7 @@ def chase(predator, prey, maxsteps=2000):
 
 # %% fitness_of_the_prey loses 15.2
 # Gives the prey's fitness instead of the predator's.
-# says: 1 minus what was expected
+# says: this
 _tournament = tournament
 
 
@@ -72,7 +72,7 @@ def tournament(predators, prey, maxsteps=2000):
 
 # %% individuals_together loses 15.2
 # Puts the axes in the order (G, H, n, m), but (G, n, H, m) is asked for.
-# says: right, but their shape is
+# says: this
 _tournament = tournament
 
 
@@ -106,14 +106,14 @@ def tournament(predators, prey, maxsteps=2000):
 
 # %% prey_not_turned loses 15.3
 # Leaves the generations of predators in the rows of the prey's matrix, but its rows should be the generations of prey.
-# says: transpose it
+# says: this
 # -     return {"predators": mean, "prey": 1 - mean.T}
 # +     return {"predators": mean, "prey": 1 - mean}
 
 
 # %% prey_want_to_be_caught loses 15.3
 # Gives the predators' fitness in the prey's matrix, but 1 minus that is asked for.
-# says: 1 minus what was expected
+# says: this
 # -     return {"predators": mean, "prey": 1 - mean.T}
 # +     return {"predators": mean, "prey": mean.T}
 
@@ -153,7 +153,7 @@ def profile(matrix):
 
 # %% competitors_in_rows loses 15.4
 # Averages over column g for generation g, but its competitors are in row g.
-# says: 'future': are the two exchanged
+# says: this
 _profile = profile
 
 
@@ -226,7 +226,7 @@ def red_queen(matrix):
 
 # %% sides_mistaken loses 15.6
 # Gives the part of the others as "own", and the own part as "others".
-# says: 'others': are the two exchanged
+# says: this
 _red_queen = red_queen
 
 
@@ -331,7 +331,7 @@ def describe(poses):
 
 # %% per_step loses 15.8
 # Gives the speed in mm per step instead of mm per second.
-# says: 0\.1 times what was expected
+# says: this
 _describe = describe
 
 
@@ -624,7 +624,7 @@ def describe(poses):
 # +     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
 # %% caught_if_paid loses 15.1
 # Gives False for "caught" if the prey is caught in the very last step; such a catch is worth 0, but it is a catch.
-# says: worth 0
+# says: this
 # -     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
 # +     return {"poses": np.array(poses), "caught": fitness > 0, "fitness": float(fitness)}
 # %% left_for_right loses 15.1
