@@ -956,3 +956,262 @@ def fallen_for_good(trajectory):
     alive = alive_bonus(robot, trajectory["height"], trajectory["pitch"], trajectory["touching"])
     fallen = np.maximum.accumulate(alive < 0)
     return alive if robot == "HalfCheetah" else np.where(fallen, -1.0, alive)
+
+
+# %% progress_by_gradient loses 9.1
+# Takes the mean way of two steps (as np.gradient does) for each step, but the difference of two neighbours is asked for.
+# -     return (distance[:-1] - distance[1:]) / duration
+# +     return -np.gradient(distance)[1:] / duration
+
+
+# %% progress_of_the_next_step loses 9.1
+# Gives each step the progress of the step after it (and the last one 0), but each should have its own.
+# -     return (distance[:-1] - distance[1:]) / duration
+# +     return np.append(distance[1:-1] - distance[2:], 0.0) / duration
+
+
+# %% progress_of_the_step_before loses 9.1
+# Gives each step the progress of the step before it (and the first one 0), but each should have its own.
+# -     return (distance[:-1] - distance[1:]) / duration
+# +     return np.append(0.0, distance[:-2] - distance[1:-1]) / duration
+
+
+# %% progress_by_roll loses 9.1
+# Leaves out the first step, and takes the way from the end back to the start as the last one (as np.roll does).
+# -     return (distance[:-1] - distance[1:]) / duration
+# +     return (distance - np.roll(distance, -1))[1:] / duration
+
+
+# %% divided_by_the_time_so_far loses 9.1
+# Divides the way of a step by the time since the start, but the duration of a step is asked for.
+# -     return (distance[:-1] - distance[1:]) / duration
+# +     return (distance[:-1] - distance[1:]) / (duration * np.arange(1, len(distance)))
+
+
+# %% divided_by_the_whole_time loses 9.1
+# Divides the way of a step by the duration of the episode, but that of a step is asked for.
+# -     return (distance[:-1] - distance[1:]) / duration
+# +     return (distance[:-1] - distance[1:]) / (duration * (len(distance) - 1))
+
+
+# %% mean_progress_for_all loses 9.1
+# Gives each step the mean progress of all steps, but each should have its own.
+# -     return (distance[:-1] - distance[1:]) / duration
+# +     return np.full(len(distance) - 1, (distance[0] - distance[-1]) / (len(distance) - 1)) / duration
+
+
+# %% progress_to_the_end loses 9.1
+# Measures the way of each step to the end of the episode, but the distance just after the step is asked for.
+# -     return (distance[:-1] - distance[1:]) / duration
+# +     return (distance[:-1] - distance[-1]) / duration
+
+
+# %% kilometres_per_hour loses 9.1
+# Gives kilometres per hour instead of metres per second.
+# -     return (distance[:-1] - distance[1:]) / duration
+# +     return 3.6 * (distance[:-1] - distance[1:]) / duration
+
+
+# %% going_away_is_nothing loses 9.1
+# Counts going away as 0, but it should be negative.
+# -     return (distance[:-1] - distance[1:]) / duration
+# +     return np.maximum(distance[:-1] - distance[1:], 0) / duration
+
+
+# %% pitch_taken_for_degrees loses 9.1
+# Compares the pitch with 1 degree, but it should be below 1 rad.
+# -     upright = np.abs(pitch) < 1
+# +     upright = np.abs(np.degrees(pitch)) < 1
+
+
+# %% humanoid_like_a_hopper loses 9.1
+# Compares a Humanoid's height with 0.8, but 0.78 is asked for.
+# -         return np.where(height > 0.78, 2.0, -1.0)
+# +         return np.where(height > 0.8, 2.0, -1.0)
+
+
+# %% means_multiplied loses 9.2
+# Multiplies the mean |action| by the mean |speed|, but action and speed should be multiplied joint by joint.
+# -     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
+# +     cost = 2.0 * np.abs(actions).mean(axis=1) * np.abs(speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
+
+
+# %% work_squared loses 9.2
+# Squares action * speed, but |action * speed| is asked for.
+# -     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
+# +     cost = 2.0 * ((actions * speeds) ** 2).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
+
+
+# %% work_as_a_root loses 9.2
+# Takes the root of the mean square of action * speed, but the mean of |action * speed| is asked for.
+# -     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
+# +     cost = 2.0 * np.sqrt(((actions * speeds) ** 2).mean(axis=1)) + 0.1 * (actions**2).mean(axis=1)
+
+
+# %% negative_work_is_free loses 9.2
+# Counts negative work as 0, but |action * speed| should count.
+# -     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
+# +     cost = 2.0 * np.maximum(actions * speeds, 0).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
+
+
+# %% electricity_of_all_steps loses 9.2
+# Takes the means over all steps, too, but only over the joints of each step is asked for.
+# -     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
+# +     cost = 2.0 * np.abs(actions * speeds).mean() + 0.1 * (actions**2).mean() + 0 * actions[:, 0]
+
+
+# %% size_of_the_actions loses 9.2
+# Takes the mean |action| for the second part, but the mean squared action is asked for.
+# -     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
+# +     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * np.abs(actions).mean(axis=1)
+
+
+# %% root_of_the_actions loses 9.2
+# Takes the root of the mean squared action, but the mean squared action itself is asked for.
+# -     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
+# +     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * np.sqrt((actions**2).mean(axis=1))
+
+
+# %% work_twice loses 9.2
+# Takes |action * speed| for the second mean, too, but the mean squared action is asked for.
+# -     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
+# +     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * np.abs(actions * speeds).mean(axis=1)
+
+
+# %% six_joints_for_all loses 9.2
+# Divides the sums over the joints by 6, however many joints there are.
+# -     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
+# +     cost = 2.0 * np.abs(actions * speeds).sum(axis=1) / 6 + 0.1 * (actions**2).sum(axis=1) / 6
+
+
+# %% humanoid_pays_for_actions_alone loses 9.2
+# Multiplies only the part with the squared action by 4.25 for a Humanoid, but the part with |action * speed| should be multiplied, too.
+# -     return -cost * (4.25 if robot == "Humanoid" else 1.0)
+# +     more = 0.325 * (actions**2).mean(axis=1) if robot == "Humanoid" else 0.0
+# +     return -cost - more
+
+
+# %% limits_of_all_steps loses 9.2
+# Counts the joints at their limits in all steps together, but each step should have its own number.
+# -     return -0.1 * (np.abs(positions) > 0.99).sum(axis=1)
+# +     return np.full(len(positions), -0.1 * (np.abs(positions) > 0.99).sum())
+
+
+# %% positions_added_up loses 9.2
+# Adds up the |position| of the joints at their limits, but 0.1 for each of them is asked for.
+# -     return -0.1 * (np.abs(positions) > 0.99).sum(axis=1)
+# +     return -0.1 * (np.abs(positions) * (np.abs(positions) > 0.99)).sum(axis=1)
+
+
+# %% limits_from_1 loses 9.2
+# Counts joints only from |position| 1 on, but all beyond 0.99 are at their limits.
+# -     return -0.1 * (np.abs(positions) > 0.99).sum(axis=1)
+# +     return -0.1 * (np.abs(positions) >= 1).sum(axis=1)
+
+
+# %% positions_for_speeds loses 9.3
+# Takes "positions" instead of "speeds" for the electricity.
+# -         "electricity": electricity(robot, trajectory["actions"], trajectory["speeds"]),
+# +         "electricity": electricity(robot, trajectory["actions"], trajectory["positions"]),
+
+
+# %% heading_for_pitch loses 9.3
+# Takes "heading" instead of "pitch" for the alive bonus.
+# -             robot, trajectory["height"], trajectory["pitch"], trajectory["touching"]
+# +             robot, trajectory["height"], trajectory["heading"], trajectory["touching"]
+
+
+# %% never_touching loses 9.3
+# Leaves "touching" out of the alive bonus, but a HalfCheetah on shin or thigh has fallen.
+# -             robot, trajectory["height"], trajectory["pitch"], trajectory["touching"]
+# +             robot, trajectory["height"], trajectory["pitch"], 0 * trajectory["touching"]
+
+
+# %% ends_at_the_fall loses 9.3
+# Leaves out all steps after the first fall, but all T steps are asked for.
+_components_v0 = components_v0
+
+
+def components_v0(trajectory):
+    parts = _components_v0(trajectory)
+    fallen = parts["alive"] < 0
+    end = int(np.argmax(fallen)) + 1 if fallen.any() else len(fallen)
+    return {key: values[:end] for key, values in parts.items()}
+
+
+# %% means_of_the_components loses 9.3
+# Gives the mean of each component over the steps, but an array with a number for each step is asked for.
+_components_v0 = components_v0
+
+
+def components_v0(trajectory):
+    return {key: float(np.mean(values)) for key, values in _components_v0(trajectory).items()}
+
+
+# %% added_up_from_step_to_step loses 9.3
+# Adds up each component from step to step, but each step should have its own number.
+_components_v0 = components_v0
+
+
+def components_v0(trajectory):
+    return {key: np.cumsum(values) for key, values in _components_v0(trajectory).items()}
+
+
+# %% paid_for_being_alive loses 9.4
+# Adds the alive bonus of version 0, but version 5 has none.
+_reward_v5 = reward_v5
+
+
+def reward_v5(trajectory):
+    seen = [trajectory[key] for key in ("robot", "height", "pitch", "touching")]
+    return _reward_v5(trajectory) + alive_bonus(*seen)
+
+
+# %% electricity_in_version_5 loses 9.4
+# Charges for electricity, but it costs nothing in version 5.
+_reward_v5 = reward_v5
+
+
+def reward_v5(trajectory):
+    given = [trajectory[key] for key in ("robot", "actions", "speeds")]
+    return _reward_v5(trajectory) + electricity(*given)
+
+
+# %% beyond_squared loses 9.4
+# Squares max(0, |position| - 1) for beyond, but it should be added up as it is.
+# -         beyond = np.maximum(np.abs(positions) - 1, 0).sum(axis=1)
+# +         beyond = (np.maximum(np.abs(positions) - 1, 0) ** 2).sum(axis=1)
+
+
+# %% pitch_for_heading loses 9.4
+# Takes the pitch instead of the heading for a Humanoid.
+# -         reward = reward + 1 - 10 * beyond - 0.1 * trajectory["heading"] ** 2
+# +         reward = reward + 1 - 10 * beyond - 0.1 * trajectory["pitch"] ** 2
+
+
+# %% ant_squares_its_mean loses 9.4
+# Squares an Ant's mean action, but the mean squared action is asked for.
+# -         reward = reward + 0.01 - 0.01 * (trajectory["actions"] ** 2).mean(axis=1)
+# +         reward = reward + 0.01 - 0.01 * trajectory["actions"].mean(axis=1) ** 2
+
+
+# %% ant_pays_for_sizes loses 9.4
+# Takes an Ant's mean |action|, but the mean squared action is asked for.
+# -         reward = reward + 0.01 - 0.01 * (trajectory["actions"] ** 2).mean(axis=1)
+# +         reward = reward + 0.01 - 0.01 * np.abs(trajectory["actions"]).mean(axis=1)
+
+
+# %% once_fallen_never_paid loses 9.5
+# Pays a planar runner that has fallen once no bonus in later steps, but each step should be judged by itself.
+_planar_v0 = planar_v0
+
+
+def planar_v0(trajectory):
+    parts = _planar_v0(trajectory)
+    return {**parts, "alive": np.minimum.accumulate(parts["alive"])}
+
+
+# %% path_back_and_forth loses 9.5
+# Adds up the way forth and back for "metres", but the first distance minus the last one is asked for.
+# -     metres = float(trajectory["distance"][0] - trajectory["distance"][-1])
+# +     metres = float(np.abs(np.diff(trajectory["distance"])).sum())
