@@ -20,7 +20,7 @@ from collections.abc import Iterable
 from importlib.machinery import PathFinder
 from pathlib import Path
 
-from botschool.sandbox.paths import IMPORT_ROOT, is_packages
+from botschool.sandbox.paths import IMPORT_ROOT
 
 OPERATORS = "torch.ops.aten"
 
@@ -46,7 +46,7 @@ def _places(name: str) -> list[Path]:
 
     No package is imported to find that out.
     """
-    search: list[str] | None = [str(IMPORT_ROOT), *filter(is_packages, sys.path)]
+    search: list[str] | None = [str(IMPORT_ROOT), *filter(None, sys.path)]
     parts = name.split(".")
     for at in range(1, len(parts) + 1):
         spec = PathFinder.find_spec(".".join(parts[:at]), search)
@@ -66,6 +66,7 @@ def refuse(names):
     on the side is a stand-in, too, and afterwards it is an error. The function is sent to the
     process as source, so it does its own imports.
     """
+    import contextlib
     import gc
     import importlib
     import importlib.abc
@@ -160,7 +161,8 @@ def refuse(names):
         if isinstance(part, types.FunctionType):
             close(part, name)
         elif part is not None:
-            setattr(owner, last, raising(name))
+            with contextlib.suppress(TypeError):  # a type in C cannot change
+                setattr(owner, last, raising(name))
 
     def close_loaded():
         """Refuse every function of hidden modules that are loaded, wherever it is kept."""
@@ -198,11 +200,12 @@ def refuse(names):
         if place == "torch.ops.aten":
             operators.append(attribute)
         elif attribute:
-            owner = importlib.import_module(place)
             *owners, last = attribute.split(".")
-            for each in owners:
-                owner = getattr(owner, each)
-            close_part(owner, last, f"{place}.{attribute}")
+            with contextlib.suppress(ImportError, AttributeError):  # it is not installed here
+                owner = importlib.import_module(place)
+                for each in owners:
+                    owner = getattr(owner, each)
+                close_part(owner, last, f"{place}.{attribute}")
     if operators:
         close_operators(operators)
     return lambda: loaded.append(True)
