@@ -117,6 +117,7 @@ def test_places(sandboxed):
     assert one.ask("f") == {
         "error": "IndexError", "text": "list index out of range", "file": "untrusted.py",
         "line": 4, "column": None, "near": None, "call": None,
+        "process": False,
     }  # fmt: skip
     assert one.ask("ff")["error"] == "Missing"
     told = one.ask("h")
