@@ -20,11 +20,11 @@ using Initial = std::function<Values(std::uint32_t)>;
 
 /// The hyperparameters of section [ALGO].
 struct Hyperparameters {
-  int size;             ///< samplesize of OpenAI-ES, popsize of SSS
-  double stepsize;      ///< of OpenAI-ES
-  double deviation;     ///< noiseStdDev of OpenAI-ES, mutrate of SSS
-  int wdecay = 0;       ///< of OpenAI-ES
-  int symseed = 1;      ///< of OpenAI-ES
+  int size;          ///< samplesize of OpenAI-ES, popsize of SSS
+  double stepsize;   ///< of OpenAI-ES
+  double deviation;  ///< noiseStdDev of OpenAI-ES, mutrate of SSS
+  int wdecay = 0;    ///< of OpenAI-ES
+  int symseed = 1;   ///< of OpenAI-ES
 };
 
 /// Indices from the largest value to the smallest, or with `rising` the reverse; the earlier wins
