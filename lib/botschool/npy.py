@@ -31,7 +31,7 @@ def opened(path: Path | str | os.PathLike[str]) -> BinaryIO:
     return open(path, "rb")
 
 
-def read_numbers(path: Path | str) -> np.ndarray:
+def read_numbers(path: Path | str | os.PathLike[str]) -> np.ndarray:
     """Return the array of plain numbers in a .npy file. Raises OSError and NotNumbers."""
     with opened(path) as file, warnings.catch_warnings():
         warnings.simplefilter("ignore")  # a damaged header causes warnings

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -12,6 +11,7 @@ from botschool.config import PolicyConfig
 from botschool.config import load as load_experiment
 from botschool.policies.policy import Policy
 from botschool.problems import Episodes
+from botschool.problems.python import PythonProblem
 
 
 class Robot:
@@ -23,8 +23,8 @@ class Robot:
     def __init__(self, environment: str, nhiddens: int = 10, out_type: int = 3) -> None:
         """Make the robot; out_type: activation of the outputs, 2 tanh, 3 linear."""
         self.environment = environment
-        self._problem: Any = problems.make(environment)
-        if not self._problem.native:
+        self._problem = problems.make(environment)
+        if isinstance(self._problem, PythonProblem):
             self._problem.fresh = False  # no trial before: the first episodes are the student's
         config = PolicyConfig(nhiddens=nhiddens, bias=1, out_type=out_type)
         self.policy = Policy(environment, self._problem.interface, config)

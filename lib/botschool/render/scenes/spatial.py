@@ -74,7 +74,9 @@ class DeclaredScene(SpatialScene):
         reach += [places[limb[0], 0] - limb[7] for limb in self.space.limbs]
         sizes = np.ptp(reach, axis=0)
         near = float(np.clip(sizes.max() / 1.6, 0.2, 4.0))
-        self.view, self.scale = tuple(near * side for side in self.view), self.scale / near
+        left, bottom, right, top = self.view
+        self.view = near * left, near * bottom, near * right, near * top
+        self.scale /= near
         self.space = replace(self.space, height=sizes[2] / 2, distance=near * self.space.distance)
 
 
