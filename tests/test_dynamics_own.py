@@ -257,6 +257,7 @@ LIMITS = {
     **{f"Spatial{body}-v{version}": 1000 for body in ("Ant", "Humanoid") for version in (0, 5)},
     "SpatialHumanoidStandup-v0": 1000,
     "SpatialBody-v0": 1000,
+    "SpatialBalanceBot-v0": 500,
 }
 
 

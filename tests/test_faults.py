@@ -10,7 +10,7 @@ import threading
 import numpy as np
 import pytest
 
-from botschool.evolution.run import Run, evolve
+from botschool.evolution.run import Run
 from botschool.problems.base import Interrupted
 from running import (
     TESTS,
@@ -237,22 +237,6 @@ def test_videos_that_cannot_be_written(refused, tmp_path):
         "folder.mp4": ["is a folder"],
     }.items():
         refused("es", "-f", ini, "-p", "--video", tmp_path / path, says=[tmp_path / path, *says])
-
-
-# a folder that goes away
-
-
-def test_a_folder_that_vanishes_in_the_middle(tmp_path):
-    own = experiment(tmp_path, saveeach=0)
-    folder = tmp_path / "results"
-    folder.mkdir()
-
-    def vanish(run):
-        if run.record.generation == 3:
-            shutil.rmtree(folder)
-
-    with pytest.raises(Exception, match=r"results.* cannot be written .*choose another folder\."):
-        evolve(Run(own, 1), folder, report=vanish)
 
 
 # --- Environments that break in the middle of a run: one sentence, and what was finished is there.

@@ -380,7 +380,7 @@ def test_explain_shows_all_calls_with_both_answers(course, capsys):
 def test_pytest_collects_tasks_and_checks(course):
     command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-v", "exercises"]
     ran = subprocess.run(command, capture_output=True, text=True).stdout
-    assert "4.5 Judging::judges (40 points) PASSED" in ran
+    assert "4.5 Judging::judges (40 points) PASSED" in ran, ran
     assert "4.1 Mixing::mixes (60 points) FAILED" in ran
     assert "1 failed, 1 passed" in ran and "Traceback" not in ran
     ran = subprocess.run([*command, "-k", "4.5"], capture_output=True, text=True).stdout

@@ -1607,7 +1607,7 @@ def utilities(fitness):
 # +     step = (m / (1 - 0.9**t)) / (np.sqrt(d**2) + 1e-8)
 
 
-# %% one_size_for_all loses 8.5
+# %% step_with_the_mean_of_v loses 8.5
 # Makes the step with the mean of v over all parameters instead of each one's own v.
 # -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
 # +     step = (m / (1 - 0.9**t)) / (np.sqrt(v.mean() / (1 - 0.999**t)) + 1e-8)
