@@ -203,13 +203,20 @@ def test_ctrl_c_while_the_command_exits(arguments, code, errors):
     assert (done.returncode, done.stderr.count("\n")) == (code, errors), done.stderr
 
 
+MIDDLE = """
+import os, signal, sys
+from botschool import config
+config.load = lambda path: os.kill(os.getpid(), signal.SIGINT)
+from botschool.cli import main
+sys.argv = ["botschool", "es", "-f", "acrobot.ini"]
+main()
+"""
+
+
 def test_ctrl_c_in_the_middle_of_a_command_is_a_sentence(tmp_path):
     """Of a command that saves nothing."""
-    os.mkfifo(tmp_path / "waits.ini")  # reading it takes for ever
-    process = start("es", "-f", tmp_path / "waits.ini", preexec_fn=heeding_ctrl_c)
-    writer = os.open(tmp_path / "waits.ini", os.O_WRONLY)  # returns once it is being read
-    time.sleep(0.2)
-    process.send_signal(signal.SIGINT)
-    code, _, errors = finish(process)
-    os.close(writer)
-    assert (code, errors) == (130, "Stopped.\n")
+    (tmp_path / "acrobot.ini").touch()
+    done = subprocess.run(
+        [sys.executable, "-c", MIDDLE], cwd=tmp_path, capture_output=True, text=True, timeout=60
+    )
+    assert (done.returncode, done.stderr) == (130, "Stopped.\n")
