@@ -40,7 +40,7 @@ class Grader(pytest.File):
         """Yield a collector for each task."""
         number = int(self.path.parent.name[2:4])
         exercise = load_exercise(number, self.path.parents[2])
-        file = submission_file(number, os.environ.get("SUBMISSION"), self.path.parents[2])
+        file = submission_file(number, os.environ.get("SUBMISSION") or None, self.path.parents[2])
         for task in exercise.tasks:
             name = f"{task.id} {task.title}"
             yield Task.from_parent(self, name=name, exercise=exercise, task=task, file=file)
