@@ -186,6 +186,7 @@ def test_the_command_runs_no_module_of_the_folder_that_it_is_called_in(tmp_path)
 
 LATE = """
 import atexit, os, signal, sys, threading
+signal.signal(signal.SIGINT, signal.default_int_handler)
 atexit.register(lambda: os.kill(os.getpid(), signal.SIGINT))
 threading._register_atexit(lambda: os.kill(os.getpid(), signal.SIGINT))
 from botschool.cli import main
@@ -205,6 +206,7 @@ def test_ctrl_c_while_the_command_exits(arguments, code, errors):
 
 MIDDLE = """
 import os, signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)  # as a terminal's processes have it
 from botschool import config
 config.load = lambda path: os.kill(os.getpid(), signal.SIGINT)
 from botschool.cli import main
