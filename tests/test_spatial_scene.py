@@ -24,15 +24,16 @@ BODIES = {
     "SpatialHumanoid-v0": "humanoid",
     "SpatialHumanoid-v5": "humanoid",
     "SpatialHumanoidStandup-v0": "humanoidstandup",
+    "SpatialBalanceBot-v0": "balancebot",
 }
 DRAWING = Path(replay.__file__).parent / "replay_space.js"
 
 
-def at(name, x=0.0, z=1.0, seed=None):
+def at(name, x=0.0, z=None, seed=None):
     """A state of a body at rest; its hinges are turned at random if there is a seed."""
     body = _core.SpatialBody(BODIES[name])
-    state = np.zeros(body.size)
-    state[[0, 2, 3]] = x, z, 1.0
+    state = np.zeros(make_scene(name).state_size)
+    state[[0, 2, 3]] = x, z or (0.3 if BODIES[name] == "balancebot" else 1.0), 1.0
     if seed is not None:
         rng = np.random.default_rng(seed)
         state[3 : body.coordinates] = rng.normal(size=body.coordinates - 3)
@@ -52,14 +53,14 @@ def test_a_film_shows_the_body_its_shadow_and_its_way(name):
     scene = make_scene(name)
     frame = scene.draw(at(name))
     assert frame.shape == (408, 720, 3) and frame.dtype == np.uint8
-    assert scene.fps == pytest.approx(20 if "Ant" in name else 200 / 3)
+    assert scene.fps == pytest.approx({"Ant": 20, "Hum": 200 / 3, "Bal": 100}[name[7:10]])
     assert (make_scene(name).draw(at(name)) == frame).all()
     aloft = make_scene(name).draw(at(name, z=200.0))  # with its shadow far away
     changed = (aloft.astype(int) - frame).any(axis=2)
     colourful = np.ptp(frame.astype(int), axis=2) > 40
     assert (changed & colourful).sum() > 2000
     shadow = changed & ~colourful & (frame.max(axis=2) < 0.8 * aloft.max(axis=2))
-    assert shadow.sum() > 500
+    assert shadow.sum() > 300
     assert (make_scene(name).draw(at(name, x=0.5)) != frame).any(), "marks show where it is"
 
 
@@ -81,9 +82,21 @@ def test_the_shadow_lies_under_what_touches_the_ground(name):
     frame = scene.draw(state)
     above = scene.draw(state + np.eye(len(state))[2] * 200)
     rows, _ = np.nonzero((above.astype(int) - frame).any(axis=2))
-    seen, _ = scene._painter._seen(np.array([[*state[:2]]]))
+    seen, _ = scene._painter._seen(np.array([[*state[:2], 0.0]]))
     half = scene._painter._pixels / 2
     assert abs(rows.max() - seen[0, 1] / 2) < 0.7 * half, "nothing lies far below the robot"
+
+
+@pytest.mark.parametrize("options", ["slope=0.3", "step=0.3"])
+def test_ground_that_rises_is_drawn_under_the_robot(options):
+    """What stands on it looks as on flat ground."""
+    scene = scene_of(make("SpatialAnt-v5", options=options))
+    x, level = 10.0, make_scene("SpatialAnt-v5").draw(at("SpatialAnt-v5", x=10.0))
+    height = 3.0 if options.startswith("slope") else 0.3
+    frame = scene.draw(at("SpatialAnt-v5", x=x, z=1.0 + height))
+    body = np.ptp(level.astype(int), axis=2) > 40
+    assert (frame == level)[body].mean() > 0.99
+    assert (frame == level).all() == options.startswith("step"), "far from the step it is flat"
 
 
 def test_the_camera_follows_smoothly():
@@ -152,7 +165,8 @@ console.log(JSON.stringify({ answer, cameras }));
 
 
 @pytest.mark.parametrize(
-    "name", ["SpatialAnt-v5", "SpatialHumanoid-v5", "SpatialHumanoidStandup-v0"]
+    "name",
+    ["SpatialAnt-v5", "SpatialHumanoid-v5", "SpatialHumanoidStandup-v0", "SpatialBalanceBot-v0"],
 )
 def test_a_page_puts_limbs_and_camera_where_films_do(name, tmp_path):
     if shutil.which("node") is None:

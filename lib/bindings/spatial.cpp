@@ -112,6 +112,11 @@ void bind_spatial(nb::module_& module) {
   nb::class_<Race>(module, "Race")
       .def(nb::init<std::vector<double>, const std::vector<std::string>&>(),
            nb::arg("ground") = std::vector<double>(3), nb::arg("vary") = std::vector<std::string>())
+      .def_prop_ro("ground",
+                   [](const Race& race) {
+                     const Ground& ground = race.options.ground;
+                     return nb::make_tuple(ground.slope, ground.step, ground.bumps);
+                   })
       .def("declare", &Race::declare, nb::arg("names"), nb::arg("links"), nb::arg("shapes"),
            nb::arg("firmness"), nb::kw_only(), nb::arg("seconds"), nb::arg("substeps"),
            nb::arg("height"), nb::arg("noise"), nb::arg("low"), nb::arg("high"), nb::arg("alive"),

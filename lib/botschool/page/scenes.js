@@ -53,8 +53,8 @@ const NUMBERS = {
     return [...numbers, ...feet.map((foot) => +onGround(foot))];
   },
 
-  spatial({ coordinates, touching }, state) {
-    const loads = [...state].slice(-touching[0].length);
+  spatial({ coordinates, loads: first, touching }, state) {
+    const loads = [...state].slice(first);
     const onGround = touching.map((balls) => +balls.some((own, i) => own && loads[i] > 0));
     return [...[...state].slice(0, coordinates), ...onGround];
   },

@@ -66,14 +66,16 @@ function drawSpace(pen, width, height) {
   const { space, space: { axes }, view: [left, bottom, right, top] } = data.scene;
   const numbers = numbersAt(time);
   const way = wayOf(space);
-  const target = [...followed(way), space.height];
+  const rise = (x) => space.slope * x + (x > 2 ? space.step : 0);
+  const middle = followed(way);
+  const target = [...middle, space.height + rise(middle[0])];
   const scale = Math.min(width / (right - left), height / (top - bottom));
   const seen = (point) => {
     const [x, y, back] = axes.map((axis) => dot(axis, sum(point, target, -1)));
     const size = (scale * space.distance) / Math.max(space.distance - back, space.near);
     return [width / 2 + size * x - (scale * (left + right)) / 2, height / 2 - size * y + (scale * (bottom + top)) / 2, size];
   };
-  const ground = ([x, y]) => seen([x, y, 0]);
+  const ground = ([x, y], inside = x) => seen([x, y, rise(inside)]);
   drawGround(pen, space, target, ground);
   const frames = framesOf(space.links, numbers);
   const limbs = space.limbs.map(([link, ...own]) => {
@@ -81,7 +83,7 @@ function drawSpace(pen, width, height) {
       .map((end) => sum(frames[link].origin, turned(frames[link].axes, end)));
     return { ends, radius: own[6], colour: colour(own[7]) };
   });
-  drawShadow(pen, space, limbs, ground);
+  drawShadow(pen, space, limbs, ground, rise);
   drawLimbs(pen, space, limbs, seen);
   const steps = Math.min(time, space.memory);
   const speed = steps ? (way[0][0] - way[space.memory][0]) / steps / space.seconds : 0;
@@ -101,7 +103,7 @@ function drawGround(pen, space, target, ground) {
       const away = Math.hypot(i + 0.5 - target[0], j + 0.5 - target[1]) / space.far;
       if (away >= 1) continue;
       pen.globalAlpha = (1 - away ** 2) ** 2;
-      const corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(ground);
+      const corners = [[0, 0], [1, 0], [1, 1], [0, 1]].map(([a, b]) => ground([i + a, j + b], i + 0.01 + 0.98 * a));
       if (Math.max(...corners.map(([, , size]) => size)) >= nearest) continue;
       pen.beginPath();
       if ((i + j) & 1) {
@@ -115,7 +117,7 @@ function drawGround(pen, space, target, ground) {
         space.strokes.forEach(([ax, ay, bx, by], bit) => {
           if (!((space.digits[digit] >> bit) & 1)) return;
           const at = (sx, sy) => [i + 0.08 + 0.22 * place + 0.15 * sx, j - 0.4 + 0.15 * sy];
-          hull(pen, at(ax, ay), 0.022, at(bx, by), 0.022, ground);
+          hull(pen, at(ax, ay), 0.022, at(bx, by), 0.022, (point) => ground(point));
         });
       });
       pen.fillStyle = colour("muted");
@@ -124,11 +126,11 @@ function drawGround(pen, space, target, ground) {
   }
 }
 
-function drawShadow(pen, { sun, shade }, limbs, ground) {
+function drawShadow(pen, { sun, shade }, limbs, ground, rise) {
   pen.beginPath();
   for (const { ends, radius } of limbs) {
-    const fallen = ends.map((end) => sum(end, sun, -end[2] / sun[2]).slice(0, 2));
-    hull(pen, fallen[0], radius, fallen[1], radius, ground);
+    const fallen = ends.map((end) => sum(end, sun, (rise(end[0]) - end[2]) / sun[2]).slice(0, 2));
+    hull(pen, fallen[0], radius, fallen[1], radius, (point) => ground(point));
   }
   pen.globalAlpha = dark.matches ? 2 * shade : shade;
   pen.fillStyle = "#000";

@@ -29,6 +29,7 @@ class Space:
     right, up and back. memory: steps in about a second, which the camera remembers; seconds: of a
     step. near, far: from the camera, and from what it looks at, to what is drawn of the ground.
     sun: where the light comes from, on so many bands of a limb. shade: opacity of a shadow.
+    slope, step: metres that the ground rises with each metre ahead, and at x = 2.
     strokes: two ends each; digits: which of the strokes each has, a bit each.
     """
 
@@ -44,6 +45,8 @@ class Space:
     sun: Triple = (-0.2, -0.3, 1.0)
     bands: int = 24
     shade: float = 0.28
+    slope: float = 0.0
+    step: float = 0.0
     strokes: tuple[tuple[float, ...], ...] = (
         (0, 2, 1, 2), (0, 1, 0, 2), (1, 1, 1, 2), (0, 1, 1, 1), (0, 0, 0, 1), (1, 0, 1, 1),
         (0, 0, 1, 0),
@@ -77,7 +80,8 @@ class SpacePainter:
         way = np.array([numbers[:2] for numbers in past[: -space.memory - 2 : -1]])
         steps = len(way) - 1
         way = np.concatenate([way, way[-1:].repeat(space.memory - steps, axis=0)])
-        self._target = np.array([*followed(way), space.height])
+        middle = followed(way)
+        self._target = np.array([*middle, space.height + self._ground(middle)[0]])
         surface = blank(*(FINE * side for side in self._size))
         self._paint_ground(surface)
         places = self._places(past[-1][: self._coordinates])
@@ -117,10 +121,13 @@ class SpacePainter:
                     left = 0.08 + 0.22 * place
                     yield 0.15 * np.array(stroke) + (left, -0.4, left, -0.4)
 
+    def _ground(self, points: np.ndarray) -> np.ndarray:
+        """Return the height of the ground at points, with a last axis of size 1."""
+        ahead = points[..., :1]
+        return self._space.slope * ahead + self._space.step * (ahead > 2)
+
     def _seen(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return pixels, and pixels per metre, of points; pairs are on the ground."""
-        if points.shape[-1] == 2:
-            points = np.concatenate([points, np.zeros((*points.shape[:-1], 1))], axis=-1)
+        """Return pixels, and pixels per metre, of points."""
         x, y, back = np.moveaxis((points - self._target) @ self._axes.T, -1, 0)
         size = self._space.distance / np.maximum(self._space.distance - back, self._space.near)
         flat = np.stack([x * size - self._corner[0], self._corner[1] - y * size], axis=-1)
@@ -130,7 +137,8 @@ class SpacePainter:
         self, surface: pygame.Surface, polygons: np.ndarray, colour: str, strengths: np.ndarray
     ) -> None:
         """Fill polygons on the ground, (polygons, corners, 2), that are not too near the camera."""
-        pixels, sizes = self._seen(polygons)
+        inside = 0.99 * polygons + 0.01 * polygons.mean(axis=1, keepdims=True)
+        pixels, sizes = self._seen(np.concatenate([polygons, self._ground(inside)], axis=-1))
         nearest = self._pixels * self._space.distance / self._space.near
         for points, size, strength in zip(pixels, sizes, strengths, strict=True):
             if size.max() < nearest:
@@ -138,8 +146,10 @@ class SpacePainter:
 
     def _paint_shadow(self, surface: pygame.Surface, ends: np.ndarray) -> None:
         pygame, sun = import_pygame(), self._space.sun
-        fallen = ends[..., :2] - ends[..., 2:] * np.array(sun[:2]) / sun[2]
-        outlines, _ = self._seen(hull(fallen[:, 0], self._radii, fallen[:, 1], self._radii))
+        above = ends[..., 2:] - self._ground(ends)
+        fallen = ends[..., :2] - above * np.array(sun[:2]) / sun[2]
+        around = hull(fallen[:, 0], self._radii, fallen[:, 1], self._radii)
+        outlines, _ = self._seen(np.concatenate([around, self._ground(around)], axis=-1))
         shadow = pygame.Surface(surface.get_size(), pygame.SRCALPHA)
         for points in outlines:
             pygame.draw.polygon(shadow, (0, 0, 0, round(255 * self._space.shade)), points)

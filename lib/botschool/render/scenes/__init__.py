@@ -18,7 +18,7 @@ from botschool.problems.native import INFOS, NATIVE
 from botschool.problems.transition import Transition
 from botschool.render.scene import SCENES, Scene
 from botschool.render.scenes.meters import MeterScene
-from botschool.render.scenes.spatial import DeclaredScene
+from botschool.render.scenes.spatial import SpatialScene
 
 for _module in pkgutil.iter_modules(__path__):
     import_module(f"{__name__}.{_module.name}")
@@ -45,8 +45,11 @@ def scene_of(problem: Any) -> Scene | None:
     if not problem.native or drawn_by_gymnasium(problem):
         return None
     if problem.declared:
-        return DeclaredScene(problem.race, 1 / problem.fps)
-    return make_scene(problem.dynamics, problem.robots, problem.plan)
+        return SpatialScene(problem.race, 1 / problem.fps, 0.0).stand_on(problem.race.ground)
+    scene = make_scene(problem.dynamics, problem.robots, problem.plan)
+    if problem.race and isinstance(scene, SpatialScene):
+        scene.stand_on(problem.race.ground)
+    return scene
 
 
 def drawn_by_gymnasium(problem: Problem) -> bool:

@@ -1,4 +1,4 @@
-"""Draw SpatialAnt, SpatialHumanoid and SpatialHumanoidStandup: bodies in space, in perspective."""
+"""Draw robots of races in space, and the one on two wheels, in perspective."""
 
 from __future__ import annotations
 
@@ -25,16 +25,23 @@ class SpatialScene(Scene):
     view = (-2.4, -1.2, 2.4, 1.52)
     """In metres at the distance of the robot; (0, 0) is what the camera looks at."""
 
-    def __init__(self, body: Any, seconds: float, height: float, robots: tuple = ()) -> None:
-        """Make the picture; body: of `_core.SpatialBody`; height: where the camera looks."""
+    def __init__(
+        self, body: Any, seconds: float, height: float, robots: tuple = (), states: int = 0
+    ) -> None:
+        """Make the picture; body: of `_core.SpatialBody`; height: where the camera looks.
+
+        At height 0 it looks at the middle of the body, from as near as the body is small.
+        states: of the problem, 0 if it has those of its body only.
+        """
         super().__init__()
         self._body = _core.SpatialBody(body)
         table = self._body.table
-        self.state_size, self.fps = self._body.size, 1 / seconds
+        self.state_size, self.fps = states or self._body.size, 1 / seconds
         parents = {link["parent"] for link in table["links"]}
         ends = [i for i in range(len(table["links"])) if i not in parents]
         self._touching = [[ball[0] == end for ball in table["balls"]] for end in ends]
         self._coordinates = self._body.coordinates
+        self._first_load = self._body.size - len(table["balls"])
         self.count = self._coordinates + len(ends)
         self.charted = (("ground", tuple(range(self._coordinates, self.count))),)
         self.memory = round(self.fps)
@@ -45,31 +52,11 @@ class SpatialScene(Scene):
             memory=self.memory,
             seconds=seconds,
         )
+        if not height:
+            self._come_near()
 
-    def body(self) -> dict:
-        """Return `_numbers`' data about the body, ready for JSON, for the twin in scenes.js."""
-        return {"coordinates": self._coordinates, "touching": self._touching}
-
-    def painter(self) -> SpacePainter:
-        """Return what paints the frames."""
-        return SpacePainter(self.space, self._body.places, self.view, self.scale)
-
-    def _numbers(self, state, action, observation, reward) -> list[float]:
-        loads = state[-len(self._touching[0]) :]
-        touching = [float((loads[balls] > 0).any()) for balls in self._touching]
-        return [*state[: self._coordinates].tolist(), *touching]
-
-    def _follows(self, state: np.ndarray) -> bool:
-        """Return whether the robot is where it was, nearly."""
-        return bool(self._past) and np.abs(self._past[-1][:3] - state[:3]).max() < 0.5
-
-
-class DeclaredScene(SpatialScene):
-    """A body that the user declared; the camera is as near as the body is small."""
-
-    def __init__(self, race: _core.Race, seconds: float) -> None:
-        super().__init__(race, seconds, 0.0)
-        places = self._body.places(np.eye(self._body.coordinates)[3])
+    def _come_near(self) -> None:
+        places = self._body.places(np.eye(self._coordinates)[3])
         reach = [places[limb[0], 0] + limb[7] for limb in self.space.limbs]
         reach += [places[limb[0], 0] - limb[7] for limb in self.space.limbs]
         sizes = np.ptp(reach, axis=0)
@@ -78,6 +65,32 @@ class DeclaredScene(SpatialScene):
         self.view = near * left, near * bottom, near * right, near * top
         self.scale /= near
         self.space = replace(self.space, height=sizes[2] / 2, distance=near * self.space.distance)
+
+    def stand_on(self, ground: tuple[float, float, float]) -> SpatialScene:
+        """Draw ground of this slope and step; the phases of its bumps are unknown here."""
+        self.space = replace(self.space, slope=ground[0], step=ground[1])
+        return self
+
+    def body(self) -> dict:
+        """Return `_numbers`' data about the body, ready for JSON, for the twin in scenes.js."""
+        return {
+            "coordinates": self._coordinates,
+            "loads": self._first_load,
+            "touching": self._touching,
+        }
+
+    def painter(self) -> SpacePainter:
+        """Return what paints the frames."""
+        return SpacePainter(self.space, self._body.places, self.view, self.scale)
+
+    def _numbers(self, state, action, observation, reward) -> list[float]:
+        loads = state[self._first_load :][: len(self._touching[0])]
+        touching = [float((loads[balls] > 0).any()) for balls in self._touching]
+        return [*state[: self._coordinates].tolist(), *touching]
+
+    def _follows(self, state: np.ndarray) -> bool:
+        """Return whether the robot is where it was, nearly."""
+        return bool(self._past) and np.abs(self._past[-1][:3] - state[:3]).max() < 0.5
 
 
 def _limbs(body: Any) -> Iterator[tuple]:
@@ -118,6 +131,10 @@ for _name, _body, _height in (
     ("SpatialHumanoid-v0", "humanoid", 0.8),
     ("SpatialHumanoid-v5", "humanoid", 0.8),
     ("SpatialHumanoidStandup-v0", "humanoidstandup", 0.6),
+    ("SpatialBalanceBot-v0", "balancebot", 0.0),
 ):
     if _name in INFOS:  # a core may be built of a few problems
-        draws(_name)(partial(SpatialScene, _body, INFOS[_name]["seconds"], _height))
+        _info = INFOS[_name]
+        draws(_name)(
+            partial(SpatialScene, _body, _info["seconds"], _height, states=_info["states"])
+        )
