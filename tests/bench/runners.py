@@ -23,7 +23,7 @@ BODIES = {
     "planarwalker2d": (150e3, "Walker2d-v5", "Walker2DBulletEnv-v5"),
     "planarhalfcheetah": (150e3, "HalfCheetah-v5", "HalfCheetahBulletEnv-v5"),
     "spatialant": (400e3, "Ant-v5", "AntBulletEnv-v5"),
-    "spatialhumanoid": (500e3, "Humanoid-v5", "HumanoidBulletEnv-v5"),
+    "spatialhumanoid_linear": (500e3, "Humanoid-v5", "HumanoidBulletEnv-v5"),
 }
 CANDIDATES = 320
 """Of a batch; when no episode of it is left to begin, lanes fall idle one by one."""
