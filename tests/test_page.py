@@ -539,7 +539,7 @@ PAGES = (
         "predprey_maxsolvestar",
         "spatialant",
     ),
-    *("spatialhumanoid", "swingup"),
+    *("spatialbalancebot", "spatialhumanoid", "swingup"),
 )
 """Experiment files that can be pages."""
 

@@ -77,15 +77,21 @@ struct Course {
   double lift = 0;      ///< paid for each metre of height
 };
 
+#ifdef __wasm__  // the core of a page, whose races have no options
+#define BOTSCHOOL_OPTION static constexpr
+#else
+#define BOTSCHOOL_OPTION
+#endif
+
 /// The shape of the ground: it rises by `slope` with each metre ahead, by `step` (m) at x = 2, and has
 /// bumps up to this height, in each episode others.
 struct Ground {
-  double slope = 0, step = 0, bumps = 0;
+  BOTSCHOOL_OPTION double slope = 0, step = 0, bumps = 0;
 };
 
 /// What differs from episode to episode: docs/specification.md, "Bodies in space".
 struct Vary {
-  bool ground = false, mass = false, motors = false, delay = false, noise = false;
+  BOTSCHOOL_OPTION bool ground = false, mass = false, motors = false, delay = false, noise = false;
 };
 
 /// What the user may choose about a race in space.
