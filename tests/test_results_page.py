@@ -1,7 +1,5 @@
 """The pages are what their data give, and all that are compared play the same networks."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -10,8 +8,6 @@ from botschool.rl.model import build, choose
 from botschool.rl.training import _training_env, train
 from botschool.wrappers import parse
 from running import TESTS
-
-ROOT = Path(__file__).parents[1]
 
 
 @pytest.mark.usefixtures("studies")
@@ -68,24 +64,6 @@ def test_what_tuning_gives_is_told_from_its_data():
 
 
 @pytest.mark.usefixtures("studies")
-@pytest.mark.parametrize("name", ["docs/reports/bodies.md", "data/genotypes/README.md"])
-def test_rows_of_other_locomotors_stay(tmp_path, name):
-    import locomotor_curves
-
-    text = (ROOT / name).read_text(encoding="utf-8")
-    page = tmp_path / "page.md"
-    page.write_text(text, encoding="utf-8")
-    locomotor_curves.put(page, {})
-    assert page.read_text(encoding="utf-8") == text
-    locomotor_curves.put(page, {"hopper": ["| hopper | new |"]})
-    found = page.read_text(encoding="utf-8")
-    gone = set(text.splitlines()) - set(found.splitlines())
-    assert gone and all(line.startswith("| hopper") for line in gone)
-    assert found.count("| hopper | new |") == 1
-    assert all(f"\n| {robot}" in found for robot in ("halfcheetah", "walker2d", "ant", "humanoid"))
-
-
-@pytest.mark.usefixtures("studies")
 def test_an_interval_of_differences():
     import tuned
 
@@ -95,16 +73,6 @@ def test_an_interval_of_differences():
     low, high = tuned.interval(values)
     assert abs((high - low) / 2 - 1.96 * values.std() / 20) < 0.02
     assert low < values.mean() < high
-
-
-@pytest.mark.usefixtures("studies")
-def test_the_page_of_clusters_is_made_from_its_data():
-    pytest.importorskip("distributed")
-    import cluster_page as page
-
-    text = page.PAGE.read_text(encoding="utf-8")
-    assert page.filled(text, page.load()) == text, "run tools/studies cluster page"
-    assert sorted(page.BLOCKS) == sorted(page.re.findall(r"<!-- (?!end)(\w+) -->", text))
 
 
 @pytest.mark.usefixtures("studies")
