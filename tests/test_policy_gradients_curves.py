@@ -2,7 +2,6 @@
 
 import json
 from itertools import combinations
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,23 +9,21 @@ import pytest
 from botschool.rl.native import PPO
 
 pytestmark = pytest.mark.usefixtures("studies")
-DATA = Path(__file__).parents[1] / "tools/studies/data"
 SEEDS = range(1, 6)
 DOUBT = 0.05
 
 
 def stable_baselines3(env):
     """Its settings and its curves, which are kept: (seeds, points), NaN before an episode ends."""
-    import ppo_compare
-    import sb3_curves
+    from ppo_compare import COMPARED, DATA, SETTINGS
 
-    if env in sb3_curves.SETTINGS:
-        kept = json.loads(sb3_curves.DATA.read_text(encoding="utf-8"))[env]
-        settings = sb3_curves.SETTINGS[env] | {"anneal": 0}
-        return settings, np.array([kept[seed] for seed in sorted(kept)], dtype=float)
-    kept = json.loads((DATA / "ppo.json").read_text(encoding="utf-8"))["data"][env]
-    curves = kept["libraries"]["Stable-Baselines3"]["curves"]
-    return ppo_compare.SETTINGS[env], np.array(curves, dtype=float)
+    if env in COMPARED:
+        kept = json.loads((DATA / "ppo.json").read_text(encoding="utf-8"))["data"][env]
+        curves = kept["libraries"]["Stable-Baselines3"]["curves"]
+    else:
+        kept = json.loads((DATA / "sb3_curves.json").read_text(encoding="utf-8"))[env]
+        curves = [kept[seed] for seed in sorted(kept)]
+    return SETTINGS[env], np.array(curves, dtype=float)
 
 
 def native(env, given):

@@ -1,5 +1,9 @@
 """The pages are what their data give, and all that are compared play the same networks."""
 
+import importlib
+import re
+import runpy
+
 import numpy as np
 import pytest
 
@@ -9,58 +13,74 @@ from botschool.rl.training import _training_env, train
 from botschool.wrappers import parse
 from running import TESTS
 
-
-@pytest.mark.usefixtures("studies")
-def test_the_page_is_made_from_its_data():
-    import results_page as page
-
-    found = []
-    for each in page.PAGES:
-        text = each.read_text(encoding="utf-8")
-        assert page.filled(text, page.load()) == text, "run tools/studies results --only"
-        found += page.re.findall(r"<!-- (?!end)(\w+) -->", text)
-    assert sorted(page.BLOCKS) == sorted(found)
+PAGES = (
+    "agents", "algorithms_page", "coevolution_page", "evolution_and_ppo_page", "results_page",
+    "spatial_page", "tuned",
+)  # fmt: skip
 
 
 @pytest.mark.usefixtures("studies")
-def test_the_page_of_algorithms_is_made_from_its_data():
+@pytest.mark.parametrize("name", PAGES)
+def test_pages_are_made_from_their_data(name):
+    for page in importlib.import_module(name).pages():
+        text = page.path.read_text(encoding="utf-8")
+        assert page.filled(text) == text, f"run tools/studies pages {name.removesuffix('_page')}"
+        found = re.findall(r"<!-- (?!end|BEGIN|END)(\w+) -->", text)
+        assert sorted(page.sections) == sorted(found)
+
+
+@pytest.mark.usefixtures("studies")
+def test_the_command_knows_every_page():
+    folder = TESTS.parent / "tools" / "studies"
+    command = runpy.run_path(str(folder / "__main__.py"))
+    assert tuple(command["studies"]("pages")) == PAGES
+
+
+@pytest.mark.usefixtures("studies")
+def test_a_section_that_is_missing_or_twice_is_named(tmp_path):
+    from study import Page
+
+    page = Page(tmp_path / "page.md", {"times": "new"})
+    mark = "<!-- times -->\nold\n<!-- end -->\n"
+    assert page.filled(f"a\n{mark}b\n") == "a\n<!-- times -->\nnew\n<!-- end -->\nb\n"
+    for text, count in (("a\n", 0), (mark + mark, 2)):
+        with pytest.raises(SystemExit, match=f"page.md has the section <!-- times --> {count} t"):
+            page.filled(text)
+
+
+@pytest.mark.usefixtures("studies")
+def test_a_run_that_is_kept_is_not_done_again(tmp_path):
+    from study import Results
+
+    def run():
+        done.append(1)
+        return {"new": len(done)}
+
+    done: list[int] = []
+    for _ in range(2):
+        results = Results(tmp_path / "runs.jsonl")
+        for seed in (2, 1):
+            results.do({"seed": seed, "params": {}}, run)
+    assert len(done) == 2
+    assert [run["new"] for run in results.of(params={})] == [2, 1]
+
+
+@pytest.mark.usefixtures("studies")
+def test_runs_of_the_comparisons_are_all_there():
     import algorithms
-    import algorithms_page as page
-
-    names = ("tried", "runs", "longer")
-    tried, done, longer = (algorithms.Results(page.DATA / f"{name}.jsonl") for name in names)
-    text = page.PAGE.read_text(encoding="utf-8")
-    assert page.filled(text, tried, done, longer) == text, "run tools/studies algorithms page"
-    assert page.seeds(done) == len(algorithms.SEEDS)
-
-
-@pytest.mark.usefixtures("studies")
-def test_the_page_of_evolution_and_ppo_is_made_from_its_data():
     import evolution_and_ppo as study
-    import evolution_and_ppo_page as page
 
-    results = study.Results(page.DATA)
-    text = page.PAGE.read_text(encoding="utf-8")
-    assert page.filled(text, results) == text, "run tools/studies evolution_and_ppo page"
+    _, done, _ = algorithms.load()
+    for problem in algorithms.PROBLEMS:
+        for method in algorithms.METHODS:
+            runs = algorithms.runs_of(done, problem, method.name)
+            assert [run["seed"] for run in runs] == list(algorithms.SEEDS)
+    results = study.Results(study.FILE)
     for problem in study.PROBLEMS:
         for method in study.METHODS:
-            for unit in page.UNITS:
-                runs = results.best(problem, method, unit)
+            for unit in ("steps", "seconds"):
+                runs = study.best(results, problem, method, unit)
                 assert [run["seed"] for run in runs] == list(study.SEEDS)
-
-
-@pytest.mark.usefixtures("studies")
-def test_what_tuning_gives_is_told_from_its_data():
-    import json
-
-    import tuned
-
-    text = tuned.PAGE.read_text(encoding="utf-8")
-    assert tuned.filled(text) == text, "run tools/studies tuned page"
-    for name, search in tuned.SEARCHES.items():
-        measured = json.loads(search.data.read_text(encoding="utf-8"))
-        assert [run["seed"] for run in measured["runs"]] == list(search.seeds)
-        assert f"<!-- tuned {name} -->" in text
 
 
 @pytest.mark.usefixtures("studies")
@@ -73,16 +93,6 @@ def test_an_interval_of_differences():
     low, high = tuned.interval(values)
     assert abs((high - low) / 2 - 1.96 * values.std() / 20) < 0.02
     assert low < values.mean() < high
-
-
-@pytest.mark.usefixtures("studies")
-def test_a_block_without_data_stays():
-    import results_page as page
-
-    text = "<!-- ppo -->\nold\n<!-- end -->\n<!-- conditions -->\n<!-- end -->\n"
-    made = page.filled(text, {})
-    assert made.startswith("<!-- ppo -->\nold\n<!-- end -->\n<!-- conditions -->\n| part")
-    assert page.filled(made, {}) == made
 
 
 @pytest.mark.usefixtures("studies")

@@ -257,11 +257,7 @@ def test_environments_of_packages_say_what_to_install(tmp_path, refused, monkeyp
     refused(*watch, says="comes in a package of its own")
 
 
-def test_the_table_is_made_from_what_was_measured(studies):
-    import agents
-
-    text = agents.PAGE.read_text(encoding="utf-8")
-    assert agents.filled(text, shipped.agents()) == text, "run tools/studies agents page"
+def test_each_has_a_row_of_what_was_measured():
     rows = json.loads((shipped.folder() / shipped.TABLE).read_text())
     assert {f"{row['algo']}/{row['env']}" for row in rows} == {
         str(path.parent.relative_to(shipped.folder())).replace(os.sep, "/")

@@ -38,13 +38,13 @@ def tiny(monkeypatch):
 
 
 def test_runs_differ_from_their_files_in_what_the_plan_says():
-    from coevolution_plan import DATA, PLANS, VARIANTS
+    from coevolution_plan import EXPERIMENTS, PLANS, VARIANTS
 
     lengths = {"saveeach", "maxmsteps", "archivelen"}
     for plan in PLANS:
         for variant in VARIANTS:
             own = config.to_dict(plan.experiment(variant))
-            file = config.to_dict(config.load(DATA / f"{variant.file}.ini"))
+            file = config.to_dict(config.load(EXPERIMENTS / f"{variant.file}.ini"))
             differing = {
                 key for part in own for key in own[part] if own[part][key] != file[part][key]
             }
@@ -272,8 +272,8 @@ def test_what_was_measured_of_other_plans_stays(tmp_path, monkeypatch):
     data, first = tmp_path / "study.json", PLANS[0].name
     data.write_text(json.dumps({"plans": {plan.name: {"old": 1} for plan in PLANS}}))
     for module in (coevolution, coevolution_page):
-        monkeypatch.setattr(module, "DATA", data)
-    monkeypatch.setattr(coevolution, "write", lambda: None)
+        monkeypatch.setattr(module, "KEPT", data)
+    monkeypatch.setattr(coevolution, "pages", list)
     monkeypatch.setattr(
         coevolution, "measured", lambda _, plans: {p.name: {"new": 1} for p in plans}
     )
@@ -282,14 +282,3 @@ def test_what_was_measured_of_other_plans_stays(tmp_path, monkeypatch):
     found = coevolution_page.load()["plans"]
     assert found[first].keys() == {"measured", "new"}
     assert all(found[plan.name] == {"old": 1} for plan in PLANS[1:])
-
-
-def test_the_page_is_made_from_its_data():
-    import coevolution_page
-
-    text = coevolution_page.PAGE.read_text(encoding="utf-8")
-    data = coevolution_page.load()
-    assert coevolution_page.filled(text, data) == text, "run tools/studies coevolution page"
-    assert set(coevolution_page.BLOCKS) == set(
-        coevolution_page.re.findall(r"<!-- (study_\w+) -->", text)
-    )

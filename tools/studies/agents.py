@@ -2,7 +2,6 @@
 
     python tools/studies agents train [ENV ...]     into results/agents; what is there stays
     python tools/studies agents keep [ENV ...]      their weights into data/agents, measured
-    python tools/studies agents page                data/agents/README.md from what was measured
 
 Without a name: all of PLAN that were trained.
 """
@@ -13,19 +12,16 @@ import contextlib
 import io
 import json
 import math
-import re
 import shlex
 import shutil
 import sys
 import time
-from pathlib import Path
 
 import numpy as np
+from study import ROOT, Page, table
 
-REPOSITORY = Path(__file__).parents[2]
-TRAINED = REPOSITORY / "results" / "agents"
-AGENTS = REPOSITORY / "data" / "agents"
-PAGE = AGENTS / "README.md"
+TRAINED = ROOT / "results" / "agents"
+AGENTS = ROOT / "data" / "agents"
 DONE = "done.json"
 """In the folder of a training that has ended: the seconds that it took."""
 
@@ -152,28 +148,25 @@ def spelled(value) -> str:
     return json.dumps(value).strip('"').replace(" ", "") if not isinstance(value, str) else value
 
 
-def filled(text: str, trained) -> str:
-    """The page with its table made from these agents."""
-    rows = [
-        "| problem | algorithm | steps | time | return | solved from | kB | command |",
-        "|---|---|---:|---:|---:|---:|---:|---|",
-    ]
-    for each in trained:
-        rows.append(
-            f"| {each.env} | {each.algo} | {each.steps:,} | {each.seconds} s | "
-            f"{each.mean:.1f} +- {each.deviation:.1f} | {SOLVED.get(each.env, '-')} | "
-            f"{math.ceil(each.path.stat().st_size / 1000)} | `{each.command}` |"
-        )
-    table = "\n".join(rows)
-    return re.sub(r"(<!-- agents -->\n).*?(<!-- end -->)", rf"\g<1>{table}\n\2", text, flags=re.S)
-
-
-def page(_: list[str]) -> None:
-    """Writes the table of the page."""
+def pages() -> list[Page]:
+    """Return the page, made from what was measured."""
     from botschool.rl import shipped
 
-    PAGE.write_text(filled(PAGE.read_text(encoding="utf-8"), shipped.agents()), encoding="utf-8")
+    rows = [
+        [
+            each.env, each.algo, f"{each.steps:,}", f"{each.seconds} s",
+            f"{each.mean:.1f} +- {each.deviation:.1f}", SOLVED.get(each.env, "-"),
+            str(math.ceil(each.path.stat().st_size / 1000)), f"`{each.command}`",
+        ]
+        for each in shipped.agents()
+    ]  # fmt: skip
+    columns = ["problem", "algorithm", "steps", "time", "return", "solved from", "kB", "command"]
+    return [Page(AGENTS / "README.md", {"agents": table(columns, rows)})]
 
 
 def main() -> None:
-    {"train": train, "keep": keep, "page": page}[sys.argv[1]](sys.argv[2:])
+    what, *only = sys.argv[1:]
+    {"train": train, "keep": keep}[what](only)
+    if what == "keep":
+        for page in pages():
+            page.write()

@@ -1,11 +1,10 @@
 """Evolutionary algorithms side by side on native problems, for docs/reports/algorithms.md.
 
-    python tools/studies algorithms tune FOLDER      tries three settings of each, seeds 101 and 102
-    python tools/studies algorithms run FOLDER       runs seeds 1 to 10 of the best
-    python tools/studies algorithms longer FOLDER    runs some of them four times as long
-    python tools/studies algorithms page FOLDER      keeps the results, writes the page's tables
+    python tools/studies algorithms     tries three settings of each, runs seeds 1 to 10 of the
+                                        best, some four times as long, and writes the page
 
-What is stopped goes on where it stopped.
+Runs go to data/algorithms, and those that are there are not done again: what is stopped goes on
+where it stopped. Delete the files to begin anew.
 
 The problem, the policy and the number of candidates are those of the problem's experiment file.
 pycma is driven by the same evaluation, if it is installed (it is a dependency of the tests).
@@ -13,25 +12,20 @@ pycma is driven by the same evaluation, if it is installed (it is a dependency o
 
 from __future__ import annotations
 
-import json
-import sys
 import time
 import warnings
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
+from study import DATA, EXPERIMENTS, NEW_SEED, Results, at_steps, played
 
 import botschool.evolution.algorithms  # noqa: F401  (fills ALGORITHMS)
 from botschool import config
 from botschool.evolution.algorithm import ALGORITHMS
 from botschool.evolution.algorithms.gaussian import Gaussian
 from botschool.evolution.run import Run
-from botschool.problems import Episodes
 
-EXPERIMENTS = Path(__file__).parents[2] / "data" / "experiments"
-NEW_SEED = 2**40
-"""New episodes are those of a seed that no run uses."""
+FOLDER = DATA / "algorithms"
 POINTS = 40
 """Of a learning curve, equally spaced in the steps."""
 TRIED = (101, 102)
@@ -159,52 +153,25 @@ def run(problem: Problem, method: Method, setting: float, seed: int, steps: floa
         run.advance(goes_on=True)
     run.settle()
     seconds = time.process_time() - start
-    genotype, normalisation = run.policy.split(run.record.bestg)
-    outcome = run.problem.evaluate(
-        run.policy,
-        genotype[None],
-        normalisation,
-        Episodes.of([NEW_SEED + seed], problem.new),
-        experiment.policy.maxsteps,
-    )
-    rows = run.record.rows()
-    at = np.searchsorted(rows[:, 0], np.linspace(0, steps * 1e6, POINTS + 1)[1:], side="right") - 1
+    outcome = played(run, run.record.bestg, NEW_SEED + seed, problem.new)
+    points = np.linspace(0, steps * 1e6, POINTS + 1)[1:]
     return {
-        "problem": problem.file,
-        "method": method.name,
-        "setting": setting,
-        "seed": seed,
-        "steps": steps,
         "new": round(float(outcome.fitness.mean()), 3),
         "best": round(run.record.bestg_fitness, 3),
         "seconds": round(seconds, 2),
-        "curve": [None if i < 0 else round(float(rows[i, 2]), 2) for i in at],
+        "curve": at_steps(run.record.rows(), points, 2),
     }
 
 
-class Results:
-    """Runs that are done, a line of JSON each; those of a file are not done again."""
+def do(results: Results, problem: Problem, method: Method, setting: float, seed: int, steps: float):
+    """Run it, unless that was done."""
+    name = {"problem": problem.file, "method": method.name, "setting": setting, "seed": seed}
+    results.do(name | {"steps": steps}, lambda: run(problem, method, setting, seed, steps))
 
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else []
-        self.runs = [json.loads(line) for line in lines]
 
-    def of(self, problem: str, method: str, **more) -> list[dict]:
-        """Runs of a method on a problem, by rising seeds."""
-        wanted = {"problem": problem, "method": method} | more
-        found = [r for r in self.runs if wanted.items() <= r.items()]
-        return sorted(found, key=lambda r: r["seed"])
-
-    def do(self, problem: Problem, method: Method, setting: float, seed: int, steps: float) -> None:
-        """Runs it, unless that was done."""
-        if self.of(problem.file, method.name, setting=setting, seed=seed, steps=steps):
-            return
-        done = run(problem, method, setting, seed, steps)
-        self.runs.append(done)
-        with self.path.open("a", encoding="utf-8") as file:
-            file.write(json.dumps(done) + "\n")
-        print(*(done[k] for k in ("problem", "method", "setting", "seed", "new", "seconds")))
+def runs_of(results: Results, problem: Problem, name: str, **more) -> list[dict]:
+    """Return the runs of a method on a problem, by rising seeds."""
+    return results.of(problem=problem.file, method=name, **more)
 
 
 def tune(tried: Results) -> None:
@@ -213,7 +180,7 @@ def tune(tried: Results) -> None:
         for problem in PROBLEMS:
             for method in (*METHODS, *MORE):
                 for setting in SETTINGS:
-                    tried.do(problem, method, setting, seed, problem.tried)
+                    do(tried, problem, method, setting, seed, problem.tried)
 
 
 def chosen(tried: Results, problem: Problem, method: Method) -> float:
@@ -221,7 +188,7 @@ def chosen(tried: Results, problem: Problem, method: Method) -> float:
     name = "CMA-ES" if method is PYCMA else method.name
 
     def reached(setting: float) -> float:
-        return np.mean([r["new"] for r in tried.of(problem.file, name, setting=setting)])
+        return np.mean([r["new"] for r in runs_of(tried, problem, name, setting=setting)])
 
     return max(SETTINGS, key=reached)
 
@@ -233,7 +200,7 @@ def run_all(tried: Results, done: Results) -> None:
             methods = [*METHODS, PYCMA] if problem.file in WITH_PYCMA else [*METHODS]
             for method in methods + [*MORE] * (seed in MORE_SEEDS):
                 setting = chosen(tried, problem, method)
-                done.do(problem, method, setting, seed, problem.steps)
+                do(done, problem, method, setting, seed, problem.steps)
 
 
 def run_longer(tried: Results, longer: Results) -> None:
@@ -243,24 +210,24 @@ def run_longer(tried: Results, longer: Results) -> None:
             for method in METHODS:
                 if problem.file in LONG_PROBLEMS and method.name in LONG_METHODS:
                     setting = chosen(tried, problem, method)
-                    longer.do(problem, method, setting, seed, LONGER * problem.steps)
+                    do(longer, problem, method, setting, seed, LONGER * problem.steps)
                 if (problem.file, method.name) == ("dpole", "xNES"):
-                    longer.do(problem, method, chosen(tried, problem, PYCMA), seed, problem.steps)
+                    do(longer, problem, method, chosen(tried, problem, PYCMA), seed, problem.steps)
+
+
+def load() -> list[Results]:
+    """Return the runs that tried settings, those of the best ones, and the longer ones."""
+    return [Results(FOLDER / f"{name}.jsonl") for name in ("tried", "runs", "longer")]
 
 
 def main() -> None:
     """See the top of the file."""
-    warnings.simplefilter("ignore")
-    what, folder = sys.argv[1], Path(sys.argv[2])
-    folder.mkdir(parents=True, exist_ok=True)
-    tried, done, longer = (Results(folder / f"{n}.jsonl") for n in ("tried", "runs", "longer"))
-    if what == "tune":
-        tune(tried)
-    elif what == "run":
-        run_all(tried, done)
-    elif what == "longer":
-        run_longer(tried, longer)
-    else:
-        from algorithms_page import write
+    import algorithms_page
 
-        write(tried, done, longer)
+    warnings.simplefilter("ignore")
+    tried, done, longer = load()
+    tune(tried)
+    run_all(tried, done)
+    run_longer(tried, longer)
+    for page in algorithms_page.pages():
+        page.write()

@@ -12,17 +12,15 @@ the page says of plans that the folder has no runs of stays.
 from __future__ import annotations
 
 import argparse
-import json
 import os
 import sys
-import time
 from pathlib import Path
 
 from coevolution_measure import measured
-from coevolution_page import DATA, load, write
-from coevolution_plan import PLANS, REPOSITORY, Plan, complete, runs
+from coevolution_page import KEPT, load, pages
+from coevolution_plan import PLANS, Plan, complete, runs
 from coevolution_queue import Queue
-from report import commit, machine
+from study import ROOT, keep, stamp
 
 
 def run(folder: Path, plans: tuple[Plan, ...], processes: int) -> int:
@@ -63,23 +61,17 @@ def state(folder: Path, plans: tuple[Plan, ...]) -> None:
 
 def page(folder: Path, plans: tuple[Plan, ...]) -> None:
     """Measures and writes; the data go to tools/studies/data/coevolution.json."""
-    stamp = {
-        "commit": commit(),
-        "date": time.strftime("%Y-%m-%d", time.gmtime()),
-        "machine": machine(),
-    }
     begun = tuple(plan for plan in plans if any(each.reached() for each in runs(folder, plan)))
-    found = {name: {"measured": stamp} | of for name, of in measured(folder, begun).items()}
-    text = json.dumps({"plans": load()["plans"] | found}, separators=(",", ":"))
-    # a line for each run, so that a difference can be read
-    DATA.write_text(text.replace(',"', ',\n"') + "\n", encoding="utf-8")
-    write()
+    found = {name: {"measured": stamp()} | of for name, of in measured(folder, begun).items()}
+    keep(KEPT, {"plans": load()["plans"] | found})
+    for each in pages():
+        each.write()
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description="The study of co-evolution.")
     parser.add_argument("what", choices=("run", "state", "page"))
-    parser.add_argument("--folder", type=Path, default=REPOSITORY / "results" / "coevolution")
+    parser.add_argument("--folder", type=Path, default=ROOT / "results" / "coevolution")
     parser.add_argument("--plan", choices=[plan.name for plan in PLANS], help="default: all")
     parser.add_argument("--processes", type=int, default=1, help="runs at a time")
     options = parser.parse_args()

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 from matplotlib.figure import Figure
-from results_figures import COLOURS, GREY, panel
+from study import COLOURS, GREY, panel
 
 from botschool.analysis.tournament import ROLES
 
@@ -79,10 +77,4 @@ def behaviour(groups: list) -> Figure:
     return figure
 
 
-def draw(plan: str, groups: list, folder: Path) -> list[str]:
-    """Draws both figures of a plan; returns the names of the files."""
-    made = {"progress": progress(groups), "behaviour": behaviour(groups)}
-    names = [f"study_{plan}_{name}.png" for name in made]
-    for name, figure in zip(names, made.values(), strict=True):
-        figure.savefig(folder / name, dpi=100, metadata={"Software": None})
-    return names
+FIGURES = {"progress": progress, "behaviour": behaviour}

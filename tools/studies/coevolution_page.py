@@ -1,24 +1,20 @@
-"""Blocks of docs/reports/coevolution.md, `<!-- study_... -->` to `<!-- end -->`, and its
-figures, made from data/coevolution.json."""
+"""Sections of docs/reports/coevolution.md, and its figures, made from data/coevolution.json."""
 
 from __future__ import annotations
 
 import json
-import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from pathlib import Path
+from functools import partial
 
+import coevolution_figures
 import numpy as np
-from coevolution_plan import PLANS, REPOSITORY, VARIANTS, Plan
-from report import Table
+from coevolution_plan import PLANS, VARIANTS, Plan
+from study import DATA, REPORTS, Page, table
 
 from botschool.analysis.tournament import PROGRESS, ROLES
 
-DOCS = REPOSITORY / "docs"
-PAGE = DOCS / "reports" / "coevolution.md"
-IMAGES = DOCS / "images"
-DATA = Path(__file__).parent / "data" / "coevolution.json"
+KEPT = DATA / "coevolution.json"
 T_975 = (12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262)
 """97.5 % quantiles of Student's t distribution with 1, 2, ... degrees of freedom."""
 LONG = 100
@@ -90,12 +86,8 @@ def heading(plan: Plan, found: dict) -> str:
     return f"**{found['millions']:g} million steps a run**, {who} ({found['about']}):"
 
 
-def markdown(columns: list[str], rows: list[list[str]]) -> str:
-    return Table("", "", columns, rows).markdown()
-
-
 def picture(plan: Plan, name: str) -> str:
-    """The link to a figure that coevolution_figures.draw makes."""
+    """The link to a figure that coevolution_figures draws."""
     return f"![{name.capitalize()} of the {plan.name} runs](../images/study_{plan.name}_{name}.png)"
 
 
@@ -113,8 +105,8 @@ def reached(data: dict) -> str:
                 cells.append(f"{millions:.0f} ({generations})" if millions else "-")
             rows.append([variant.name, *cells])
         goal = f"of {plan.milestones[-1]:g} million steps ({plan.about})"
-        table = markdown(["algorithm", *(f"seed {seed}" for seed in seeds)], rows)
-        texts.append(f"Runs {goal}; million steps done, generations in brackets:\n\n{table}")
+        made = table(["algorithm", *(f"seed {seed}" for seed in seeds)], rows)
+        texts.append(f"Runs {goal}; million steps done, generations in brackets:\n\n{made}")
     return "\n\n".join(texts)
 
 
@@ -133,7 +125,7 @@ def progress(data: dict) -> str:
                         cells.append(f"{in_words(values)}, {above} of {len(values)}")
                 rows.append([f"{group.variant}, {role}", *cells])
         columns = ["", *PROGRESS, *(f"{name}, no random robots" for name in PROGRESS)]
-        texts.append(f"{heading(plan, found)}\n\n{markdown(columns, rows)}")
+        texts.append(f"{heading(plan, found)}\n\n{table(columns, rows)}")
         texts.append(picture(plan, "progress"))
     return "\n\n".join(texts) or "No run has ended yet."
 
@@ -220,7 +212,7 @@ def cross(data: dict) -> str:
             ["**prey against all**", *(in_words(prey[name], ".2f", 0, 1) for name in names), ""]
         )
         columns = ["fitness of", *(f"prey of {name}" for name in names), "against all"]
-        texts.append(f"{heading(plan, found)}\n\n{markdown(columns, rows)}")
+        texts.append(f"{heading(plan, found)}\n\n{table(columns, rows)}")
     return "\n\n".join(texts) or "No run has ended yet."
 
 
@@ -272,7 +264,7 @@ def behaviour(data: dict) -> str:
             "algorithm", "caught, %", "median steps of each seed", "speed of predators, m/s",
             "of prey", "distance, m", f"times with more than {LONG} steps",
         ]  # fmt: skip
-        texts.append(f"{heading(plan, found)}\n\n{markdown(columns, rows)}")
+        texts.append(f"{heading(plan, found)}\n\n{table(columns, rows)}")
         texts.append(picture(plan, "behaviour"))
     return "\n\n".join(texts) or "No run has ended yet."
 
@@ -287,35 +279,29 @@ def origin(data: dict) -> str:
     )
 
 
-BLOCKS: dict[str, Callable[[dict], str]] = {
-    "study_reached": reached,
-    "study_progress": progress,
-    "study_verdict": verdict,
-    "study_cross": cross,
-    "study_behaviour": behaviour,
-    "study_origin": origin,
+SECTIONS: dict[str, Callable[[dict], str]] = {
+    "reached": reached,
+    "progress": progress,
+    "verdict": verdict,
+    "cross": cross,
+    "behaviour": behaviour,
+    "origin": origin,
 }
+"""Who makes each section, whose name begins with study_."""
 
 
 def load() -> dict:
     """What was measured."""
-    return json.loads(DATA.read_text(encoding="utf-8"))
+    return json.loads(KEPT.read_text(encoding="utf-8"))
 
 
-def filled(text: str, data: dict) -> str:
-    """The page with its blocks made anew."""
-
-    def block(match: re.Match) -> str:
-        return f"{match[1]}\n{BLOCKS[match[2]](data)}\n{match[3]}"
-
-    return re.sub(r"(<!-- (study_\w+) -->)\n(?:.*?\n)??(<!-- end -->)", block, text, flags=re.S)
-
-
-def write() -> None:
-    """Writes the page and draws its figures."""
-    from coevolution_figures import draw
-
+def pages() -> list[Page]:
+    """Return the page, made from what was measured."""
     data = load()
-    PAGE.write_text(filled(PAGE.read_text(encoding="utf-8"), data), encoding="utf-8")
-    drawn = [name for plan, found in shown(data) for name in draw(plan.name, groups(found), IMAGES)]
-    print(f"{PAGE}; figures: {', '.join(drawn) or 'none'}")
+    sections = {f"study_{name}": make(data) for name, make in SECTIONS.items()}
+    figures = {
+        f"study_{plan.name}_{name}": partial(draw, groups(found))
+        for plan, found in shown(data)
+        for name, draw in coevolution_figures.FIGURES.items()
+    }
+    return [Page(REPORTS / "coevolution.md", sections, figures, dpi=100)]

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+from study import EXPERIMENTS
 
 from botschool import config
 from botschool.analysis.populations import seeds_of
@@ -15,8 +16,6 @@ from botschool.analysis.runs import STEPS, read_stat
 from botschool.config import Experiment
 from botschool.evolution.record import RunFiles
 
-REPOSITORY = Path(__file__).parents[2]
-DATA = REPOSITORY / "data" / "experiments"
 FULL_ARCHIVE, FULL_RUN = 25_000, 75_000
 """archivelen of maxsolvestar, and the million steps of the published run that it is meant for."""
 
@@ -57,7 +56,7 @@ class Plan:
 
     def experiment(self, variant: Variant) -> Experiment:
         """What its runs evolve."""
-        experiment = deepcopy(config.load(DATA / f"{variant.file}.ini"))
+        experiment = deepcopy(config.load(EXPERIMENTS / f"{variant.file}.ini"))
         longest = self.milestones[-1]
         own = {"saveeach": self.saveeach[variant.name]}
         if hasattr(experiment.algo, "maxmsteps"):

@@ -1,10 +1,9 @@
 """Evolution beside PPO on eight native problems, for docs/reports/evolution_and_ppo.md.
 
-    python tools/studies evolution_and_ppo run FOLDER     tries settings, then runs ten seeds
-    python tools/studies evolution_and_ppo page FOLDER    keeps the results, writes the page
-    python tools/studies evolution_and_ppo page           writes it from what is kept
+    python tools/studies evolution_and_ppo     tries settings, runs ten seeds, writes the page
 
-What is stopped goes on where it stopped.
+Runs go to data/evolution_and_ppo.jsonl, and those that are there are not done again: what is
+stopped goes on where it stopped. Delete the file to begin anew.
 
 Each method gets the same number of random settings, from a few plausible values of each of its
 hyperparameters, and tries each on the same two seeds. The best setting runs seeds 1 to 10. This is
@@ -14,25 +13,22 @@ as PPO takes in those seconds.
 
 from __future__ import annotations
 
-import json
-import sys
 import time
 import warnings
 import zlib
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
-from pathlib import Path
 
 import numpy as np
+from study import DATA, EXPERIMENTS, NEW_SEED, Results, played
 
 import botschool.evolution.algorithms  # noqa: F401  (fills ALGORITHMS)
 from botschool import config
 from botschool.evolution.algorithm import ALGORITHMS
 from botschool.evolution.run import Run
-from botschool.problems import Episodes
 from botschool.rl.native import PPO
 
-EXPERIMENTS = Path(__file__).parents[2] / "data" / "experiments"
+FILE = DATA / "evolution_and_ppo.jsonl"
 METHODS = ("OpenAI-ES", "CMA-ES", "ARS", "PPO")
 EVOLUTION = METHODS[:3]
 SETTINGS = 8
@@ -41,8 +37,8 @@ TRIED_SHARE = 0.5
 """Of the seconds, in a run that tries a setting."""
 POINTS = 12
 """Of a curve, from 3 % of the budget to all of it, equally far apart on a logarithmic axis."""
-NEW_SEED, NEW = 2**40, 100
-"""Seed (no run uses it) and number of the new episodes in which agents are measured."""
+NEW = 100
+"""New episodes in which agents are measured."""
 LOOKS = 20
 """Post-evaluations in a training of PPO; evolution does one each generation."""
 
@@ -165,14 +161,9 @@ def evolved(problem: Problem, method: str, setting: dict, seed: int, budget: Bud
 
     def measure() -> float:
         saved = run.record.bestg if run.record.bestg is not None else run.initial()
-        genotype, normalisation = run.policy.split(saved)
         key = np.asarray(saved).tobytes()
         if key not in known:
-            episodes = Episodes.of([NEW_SEED + seed], NEW)
-            outcome = run.problem.evaluate(
-                run.policy, genotype[None], normalisation, episodes, policy.maxsteps
-            )
-            known[key] = float(outcome.fitness.mean())
+            known[key] = float(played(run, saved, NEW_SEED + seed, NEW).fitness.mean())
         return known[key]
 
     curve = Curve(budget, measure)
@@ -220,54 +211,43 @@ def trained(problem: Problem, setting: dict, seed: int, budget: Budget) -> dict:
 
 
 # The study ---------------------------------------------------------------------------------------
-class Results:
-    """Runs that are done, a line of JSON each; those of the file are not done again."""
+def do(results: Results, problem: Problem, method: str, setting: int, seed: int, budget: Budget):
+    """Run it, unless that was done."""
+    name = {"problem": problem.name, "method": method, "setting": setting, "seed": seed}
 
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else []
-        self.runs = [json.loads(line) for line in lines]
-
-    def of(self, **wanted) -> list[dict]:
-        """Runs that have these values, by rising seeds."""
-        found = [r for r in self.runs if wanted.items() <= r.items()]
-        return sorted(found, key=lambda r: r["seed"])
-
-    def do(self, problem: Problem, method: str, setting: int, seed: int, budget: Budget) -> None:
-        """Runs it, unless that was done."""
-        name = {"problem": problem.name, "method": method, "setting": setting, "seed": seed}
-        name |= asdict(budget)
-        if self.of(**name):
-            return
+    def run() -> dict:
         chosen = drawn(problem, method, setting)
         if method == "PPO":
             done = trained(problem, chosen, seed, budget)
         else:
             done = evolved(problem, method, chosen, seed, budget)
-        self.runs.append(name | done)
-        with self.path.open("a", encoding="utf-8") as file:
-            file.write(json.dumps(self.runs[-1]) + "\n")
-        print(*name.values(), done["steps"], done["seconds"], done["curve"][-1], flush=True)
+        # of a run that tries a setting, only the end counts
+        return done | {"curve": done["curve"][-1:]} if seed in TRIED else done
 
-    def chosen(self, problem: Problem, method: str, unit: str) -> int:
-        """The number of the setting with the best mean in new episodes."""
+    results.do(name | asdict(budget), run)
 
-        def reached(number: int) -> float:
-            runs = self.of(problem=problem.name, method=method, unit=unit, setting=number)
-            return np.mean([r["curve"][-1] for r in runs if r["seed"] in TRIED])
 
-        return max(range(SETTINGS), key=reached)
+def chosen(results: Results, problem: Problem, method: str, unit: str) -> int:
+    """Return the number of the setting with the best mean in new episodes."""
 
-    def best(self, problem: Problem, method: str, unit: str) -> list[dict]:
-        """The runs of the setting chosen, seeds 1 to 10; PPO's of seconds stand for both units."""
-        unit = "seconds" if method == "PPO" else unit
-        wanted = {"problem": problem.name, "method": method, "unit": unit}
-        return [r for r in self.of(**wanted) if r["seed"] in SEEDS]
+    def reached(number: int) -> float:
+        runs = results.of(problem=problem.name, method=method, unit=unit, setting=number)
+        return np.mean([r["curve"][-1] for r in runs if r["seed"] in TRIED])
 
-    def steps(self, problem: Problem) -> int:
-        """How many PPO takes in the seconds: the median of its runs, in thousands."""
-        taken = [r["steps"] for r in self.best(problem, "PPO", "seconds")]
-        return int(round(np.median(taken), -3))
+    return max(range(SETTINGS), key=reached)
+
+
+def best(results: Results, problem: Problem, method: str, unit: str) -> list[dict]:
+    """Return the runs of the setting chosen; PPO's of seconds stand for both units."""
+    unit = "seconds" if method == "PPO" else unit
+    runs = results.of(problem=problem.name, method=method, unit=unit)
+    return [run for run in runs if run["seed"] in SEEDS]
+
+
+def steps_of_ppo(results: Results, problem: Problem) -> int:
+    """Return how many PPO takes in the seconds: the median of its runs, in thousands."""
+    taken = [run["steps"] for run in best(results, problem, "PPO", "seconds")]
+    return int(round(np.median(taken), -3))
 
 
 def study(results: Results) -> None:
@@ -276,32 +256,22 @@ def study(results: Results) -> None:
         evolved(PROBLEMS[0], method, drawn(PROBLEMS[0], method, 0), 1, Budget("steps", 1000))
     for problem in PROBLEMS:
         for unit, methods in (("seconds", ("PPO", *EVOLUTION)), ("steps", EVOLUTION)):
+            whole = problem.seconds if unit == "seconds" else steps_of_ppo(results, problem)
+            tried = TRIED_SHARE * whole if unit == "seconds" else whole
             for method in methods:
-                if unit == "seconds":
-                    whole = Budget(unit, problem.seconds)
-                    tried = Budget(unit, TRIED_SHARE * problem.seconds)
-                else:
-                    whole = tried = Budget(unit, results.steps(problem))
                 for number in range(SETTINGS):
                     for seed in TRIED:
-                        results.do(problem, method, number, seed, tried)
-                number = results.chosen(problem, method, unit)
+                        do(results, problem, method, number, seed, Budget(unit, tried))
+                number = chosen(results, problem, method, unit)
                 for seed in SEEDS:
-                    results.do(problem, method, number, seed, whole)
+                    do(results, problem, method, number, seed, Budget(unit, whole))
 
 
 def main() -> None:
     """See the top of the file."""
+    import evolution_and_ppo_page
+
     warnings.simplefilter("ignore")
-    from evolution_and_ppo_page import DATA, write
-
-    if sys.argv[1:2] == ["run"]:
-        folder = Path(sys.argv[2])
-        folder.mkdir(parents=True, exist_ok=True)
-        study(Results(folder / DATA.name))
-    else:
-        write(Results(Path(sys.argv[2]) / DATA.name) if len(sys.argv) > 2 else Results(DATA))
-
-
-if __name__ == "__main__":
-    main()
+    study(Results(FILE))
+    for page in evolution_and_ppo_page.pages():
+        page.write()

@@ -2,43 +2,45 @@
 
 from __future__ import annotations
 
-import json
-import re
-from pathlib import Path
-
 import numpy as np
-from algorithms_page import differ, markdown
-from evolution_and_ppo import METHODS, POINTS, PROBLEMS, TRIED, drawn
+from evolution_and_ppo import (
+    FILE,
+    METHODS,
+    POINTS,
+    PROBLEMS,
+    TRIED,
+    best,
+    chosen,
+    drawn,
+    steps_of_ppo,
+)
 from matplotlib.figure import Figure
-from results_figures import COLOURS, panel
+from study import COLOURS, REPORTS, Page, Results, band, legend_above, marked, panel, table
 
-DOCS = Path(__file__).parents[2] / "docs"
-PAGE = DOCS / "reports" / "evolution_and_ppo.md"
-DATA = Path(__file__).parent / "data" / "evolution_and_ppo.jsonl"
 UNITS = ("steps", "seconds")
 
 
 def reached(results, problem, method: str, unit: str) -> np.ndarray:
     """Mean return in new episodes at the end of the budget, of each seed, sorted."""
-    return np.sort([run["curve"][-1] for run in results.best(problem, method, unit)])
+    return np.sort([run["curve"][-1] for run in best(results, problem, method, unit)])
 
 
 def budget(results, problem, unit: str) -> str:
-    return f"{results.steps(problem):,}" if unit == "steps" else f"{problem.seconds:g} s"
+    return f"{steps_of_ppo(results, problem):,}" if unit == "steps" else f"{problem.seconds:g} s"
 
 
-def table(results, unit: str) -> str:
+def medians(results, unit: str) -> str:
     """The median of each method, and between which values it lies for sure."""
     rows = []
     for problem in PROBLEMS:
         found = {method: reached(results, problem, method, unit) for method in METHODS}
-        best = max(found.values(), key=np.median)
+        first = max(found.values(), key=np.median)
         cells = []
         for values in found.values():
             text = f"{np.median(values):.1f} ({values[1]:.1f} to {values[-2]:.1f})"
-            cells.append(f"**{text}**" if differ(values, best) >= 0.05 else text)
+            cells.append(marked(text, values, first))
         rows.append([problem.name, problem.kind, budget(results, problem, unit), *cells])
-    return markdown(["problem", "", f"{unit} of a run", *METHODS], rows)
+    return table(["problem", "", f"{unit} of a run", *METHODS], rows)
 
 
 def settings(results) -> str:
@@ -46,12 +48,12 @@ def settings(results) -> str:
     rows = []
     for problem in PROBLEMS:
         for method in METHODS:
-            chosen = {}
+            told = {}
             for unit in UNITS if method != "PPO" else ("seconds",):
-                setting = drawn(problem, method, results.chosen(problem, method, unit))
-                chosen[unit] = ", ".join(f"{k} {v:g}" for k, v in setting.items())
-            rows.append([problem.name, method, chosen["seconds"], chosen.get("steps", "the same")])
-    return markdown(["problem", "method", "by seconds", "by steps"], rows)
+                setting = drawn(problem, method, chosen(results, problem, method, unit))
+                told[unit] = ", ".join(f"{k} {v:g}" for k, v in setting.items())
+            rows.append([problem.name, method, told["seconds"], told.get("steps", "the same")])
+    return table(["problem", "method", "by seconds", "by steps"], rows)
 
 
 def effort(results) -> str:
@@ -70,19 +72,10 @@ def steps_a_second(results) -> str:
     for problem in PROBLEMS:
         cells = []
         for method in METHODS:
-            runs = results.best(problem, method, "seconds")
+            runs = best(results, problem, method, "seconds")
             cells.append(f"{np.median([r['steps'] / r['seconds'] for r in runs]) / 1e6:.2f} M")
         rows.append([problem.name, *cells])
-    return markdown(["problem", *METHODS], rows)
-
-
-BLOCKS = {
-    "steps": lambda results: table(results, "steps"),
-    "seconds": lambda results: table(results, "seconds"),
-    "speed": steps_a_second,
-    "settings": settings,
-    "effort": effort,
-}
+    return table(["problem", *METHODS], rows)
 
 
 def strengths(results) -> Figure:
@@ -104,8 +97,7 @@ def strengths(results) -> Figure:
         axes.set_yticks(range(len(PROBLEMS)), names)
         axes.set_ylim(len(PROBLEMS) - 0.5, -0.5)
     figure.supxlabel("return in new episodes: 0 the worst run on the problem, 1 the best")
-    handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, frameon=False, ncols=4, loc="outside upper center")
+    legend_above(figure, axes, 4)
     return figure
 
 
@@ -115,36 +107,28 @@ def curves(results) -> Figure:
     for axes, problem in zip(figure.subplots(2, 4).ravel(), PROBLEMS, strict=True):
         seconds = problem.seconds * np.geomspace(0.03, 1, POINTS)
         for method, colour in zip(METHODS, COLOURS, strict=False):
-            rows = np.array([run["curve"] for run in results.best(problem, method, "seconds")])
-            low, middle, high = np.percentile(rows, (25, 50, 75), axis=0)
-            axes.fill_between(seconds, low, high, color=colour, alpha=0.15, lw=0)
-            axes.plot(seconds, middle, color=colour, linewidth=1.8, label=method)
+            runs = best(results, problem, method, "seconds")
+            band(axes, seconds, [run["curve"] for run in runs], colour, method)
         axes.set_xscale("log")
         panel(axes, title=problem.name)
     figure.supxlabel("seconds of one core")
     figure.supylabel("return in new episodes")
-    handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, frameon=False, ncols=4, loc="outside upper center")
+    legend_above(figure, axes, 4)
     return figure
 
 
-def filled(text: str, results) -> str:
-    """The page with its blocks made anew."""
-    for name, block in BLOCKS.items():
-        pattern = rf"(<!-- {name} -->\n).*?(<!-- end -->)"
-        content = block(results)
-        text, count = re.subn(pattern, lambda m, c=content: f"{m[1]}{c}\n{m[2]}", text, flags=re.S)
-        assert count == 1, name
-    return text
-
-
-def write(results) -> None:
-    """Keeps the runs, writes the tables, draws the figures."""
-    for run in results.runs:
-        if run["seed"] in TRIED:
-            run["curve"] = run["curve"][-1:]
-    lines = [json.dumps(run) for run in results.runs]
-    DATA.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    PAGE.write_text(filled(PAGE.read_text(encoding="utf-8"), results), encoding="utf-8")
-    for name, draw in (("evolution_and_ppo", strengths), ("evolution_and_ppo_curves", curves)):
-        draw(results).savefig(DOCS / "images" / f"{name}.png", dpi=110, metadata={"Software": None})
+def pages() -> list[Page]:
+    """Return the page, made from what is kept."""
+    results = Results(FILE)
+    sections = {
+        "steps": medians(results, "steps"),
+        "seconds": medians(results, "seconds"),
+        "speed": steps_a_second(results),
+        "settings": settings(results),
+        "effort": effort(results),
+    }
+    figures = {
+        "evolution_and_ppo": lambda: strengths(results),
+        "evolution_and_ppo_curves": lambda: curves(results),
+    }
+    return [Page(REPORTS / "evolution_and_ppo.md", sections, figures)]

@@ -5,26 +5,18 @@ Every run is that of `botschool es -f FILE -s SEED`, two of them side by side, o
 
 from __future__ import annotations
 
-import multiprocessing
 import tempfile
 import time
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
 import numpy as np
+from study import EXPERIMENTS, NEW_SEED, at_steps, played, side_by_side
 
 from botschool import config
-from botschool.analysis.runs import read_stat
-from botschool.evolution.record import RunFiles
 from botschool.evolution.run import Run, evolve
-from botschool.problems import Episodes
 
-DATA = Path(__file__).parents[2] / "data" / "experiments"
-NEW_SEED = 2**40
-"""New episodes are those of a seed that no run uses."""
-PROCESSES = 2
 POINTS = 40
 """Of a learning curve, equally spaced in the logarithm of the steps, from a 200th of them."""
 
@@ -58,34 +50,37 @@ BOX2D = [Row("lunarlander", solved=200, new=100)]
 """In Gymnasium's Box2D, stepped in Python: minutes a run."""
 
 
-def run(row: Row, steps: float, seed: int) -> dict:
-    """One whole run, of at most that many million steps; its files go to a temporary folder."""
-    experiment = config.load(DATA / f"{row.file}.ini")
+def whole(file: str, steps: float, seed: int, folder: Path) -> tuple[Run, dict]:
+    """Return a whole run, of at most that many million steps, and what all runs tell of it."""
+    experiment = config.load(EXPERIMENTS / f"{file}.ini")
     experiment.algo.maxmsteps = min(steps, experiment.algo.maxmsteps)
+    start = time.process_time()
+    run = Run(experiment, seed)
+    evolve(run, folder)
+    seconds = time.process_time() - start
+    return run, {
+        "seed": seed,
+        "best": run.record.bestg_fitness,
+        "seconds": seconds,
+        "curve": at_steps(run.record.rows(), grid(experiment.algo.maxmsteps), 1),
+    }
+
+
+def run(row: Row, steps: float, seed: int) -> dict:
+    """One run, whose files go to a temporary folder."""
     with tempfile.TemporaryDirectory() as folder:
-        start = time.process_time()
-        run = Run(experiment, seed)
-        evolve(run, Path(folder))
-        seconds = time.process_time() - start
-        stat = read_stat(RunFiles(Path(folder), seed).stat)
-    genotype, normalisation = run.policy.split(run.record.bestg)
-    outcome = run.problem.evaluate(
-        run.policy,
-        genotype[None],
-        normalisation,
-        Episodes.of([NEW_SEED + seed], row.new),
-        experiment.policy.maxsteps,
-    )
-    best = run.record.bestg_fitness
-    reached = row.solved is not None and best >= row.solved
-    rows = np.searchsorted(stat[:, 0], grid(experiment.algo.maxmsteps), side="right") - 1
+        run, found = whole(row.file, steps, seed, Path(folder))
+    outcome = played(run, run.record.bestg, NEW_SEED + seed, row.new)
+    stat, solved = run.record.rows(), None
+    if row.solved is not None and found["best"] >= row.solved:
+        solved = float(stat[np.argmax(stat[:, 2] >= row.solved), 0])
     return {
         "seed": seed,
-        "best": round(best, 2),
+        "best": round(found["best"], 2),
         "new": round(float(outcome.fitness.mean()), 2),
-        "solved": float(stat[np.argmax(stat[:, 2] >= row.solved), 0]) if reached else None,
-        "seconds": round(seconds, 2),
-        "curve": [None if i < 0 else round(float(stat[i, 2]), 1) for i in rows],
+        "solved": solved,
+        "seconds": round(found["seconds"], 2),
+        "curve": found["curve"],
     }
 
 
@@ -97,15 +92,12 @@ def grid(millions: float) -> np.ndarray:
 def evolved(rows: list[Row], seeds: int, steps: float = float("inf")) -> dict:
     """{file: {"algorithm", "steps", "runs"}} with seeds 1 to that."""
     found = {}
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(PROCESSES, mp_context=context) as pool:
-        for row in rows:
-            experiment = config.load(DATA / f"{row.file}.ini")
-            runs = list(pool.map(partial(run, row, steps), range(1, seeds + 1)))
-            found[row.file] = {
-                "algorithm": experiment.exp.algo,
-                "steps": min(steps, experiment.algo.maxmsteps),
-                "runs": runs,
-            }
-            print(row.file, *(each["best"] for each in runs), flush=True)
+    for row in rows:
+        experiment = config.load(EXPERIMENTS / f"{row.file}.ini")
+        found[row.file] = {
+            "algorithm": experiment.exp.algo,
+            "steps": min(steps, experiment.algo.maxmsteps),
+            "runs": side_by_side(partial(run, row, steps), range(1, seeds + 1)),
+        }
+        print(row.file, *(each["best"] for each in found[row.file]["runs"]), flush=True)
     return found

@@ -6,30 +6,22 @@ files stay in results/planar, for films and replays (`botschool es -f FILE -p -g
 
 from __future__ import annotations
 
-import multiprocessing
 import time
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 
 import numpy as np
-from evolved import NEW_SEED, grid
+from evolved import whole
+from study import EXPERIMENTS, NEW_SEED, ROOT, side_by_side
 
 from botschool import _core, config, problems
-from botschool.analysis.runs import read_stat
-from botschool.evolution.record import RunFiles
-from botschool.evolution.run import Run, evolve
 from botschool.policies.policy import Policy
 from botschool.problems import Episodes
 
-REPOSITORY = Path(__file__).parents[2]
-DATA = REPOSITORY / "data"
-KEPT = REPOSITORY / "results" / "planar"
+KEPT = ROOT / "results" / "planar"
 NEW, FINER = 50, 5
 """New episodes, and how many of them are run again in finer steps."""
 STEPS = 1000
-PROCESSES = 2
 GAIT = 2.0
 """Seconds of a gait diagram, from the middle of an episode."""
 
@@ -66,7 +58,7 @@ class Robot:
     """An evolved runner: `saved` is its genotype as a run saves it."""
 
     def __init__(self, file: str, saved: np.ndarray) -> None:
-        experiment = config.load(DATA / "experiments" / f"{file}.ini")
+        experiment = config.load(EXPERIMENTS / f"{file}.ini")
         self.runner = RUNNERS[file]
         self.body = _core.PlanarBody(self.runner.body)
         self.segments = self.body.table["segments"]
@@ -123,48 +115,39 @@ class Robot:
 
 def run(file: str, steps: float, seed: int) -> dict:
     """One whole run, of at most that many million steps."""
-    experiment = config.load(DATA / "experiments" / f"{file}.ini")
-    experiment.algo.maxmsteps = min(steps, experiment.algo.maxmsteps)
     folder = KEPT / file
     folder.mkdir(parents=True, exist_ok=True)
-    start = time.process_time()
-    run = Run(experiment, seed)
-    evolve(run, folder)
-    seconds = time.process_time() - start
+    run, found = whole(file, steps, seed, folder)
     robot = Robot(file, run.record.bestg)
     new = NEW_SEED + seed
     returns, upright = robot.ways(new, NEW)
     ways = returns * robot.seconds
     finer = [[robot.way(new, e, part) for e in range(FINER)] for part in (1, 2)]
-    stat = read_stat(RunFiles(folder, seed).stat)
-    rows = np.searchsorted(stat[:, 0], grid(experiment.algo.maxmsteps), side="right") - 1
     return {
         "seed": seed,
-        "best": round(run.record.bestg_fitness, 1),
+        "best": round(found["best"], 1),
         "new": round(float(returns.mean()), 1),
         "metres": round(float(ways.mean()), 2),
         "upright": float(upright.mean()),
         "lengths": float((ways > robot.runner.lengths).mean()),
         "finer": np.round(np.mean(finer, axis=1), 2).tolist(),
         "gait": robot.gait(new),
-        "seconds": round(seconds, 1),
-        "curve": [None if i < 0 else round(float(stat[i, 2]), 1) for i in rows],
+        "seconds": round(found["seconds"], 1),
+        "curve": found["curve"],
     }
 
 
 def planar_runs(seeds: range, steps: float = float("inf")) -> dict:
     """{file: {"steps", "minutes", "runs"}} of the planar runners, with these seeds."""
     found = {}
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(PROCESSES, mp_context=context) as pool:
-        for file in RUNNERS:
-            experiment = config.load(DATA / "experiments" / f"{file}.ini")
-            start = time.monotonic()
-            runs = list(pool.map(partial(run, file, steps), seeds))
-            found[file] = {
-                "steps": min(steps, experiment.algo.maxmsteps),
-                "minutes": round((time.monotonic() - start) / 60, 1),
-                "runs": runs,
-            }
-            print(file, *(f"{each['metres']:.1f}" for each in runs), flush=True)
+    for file in RUNNERS:
+        experiment = config.load(EXPERIMENTS / f"{file}.ini")
+        start = time.monotonic()
+        runs = side_by_side(partial(run, file, steps), seeds)
+        found[file] = {
+            "steps": min(steps, experiment.algo.maxmsteps),
+            "minutes": round((time.monotonic() - start) / 60, 1),
+            "runs": runs,
+        }
+        print(file, *(f"{each['metres']:.1f}" for each in runs), flush=True)
     return found

@@ -1,20 +1,22 @@
 """The PPO of lib/walkthroughs/ppo.py beside that of Stable-Baselines3: a part of results.py.
 
-Both train on CartPole-v1 and Pendulum-v1 with the same hyperparameters and several seeds. Every
-training is kept in a folder, so that an interrupted comparison goes on where it was.
+    python tools/studies ppo_compare        curves of Stable-Baselines3 on Acrobot, two minutes
+
+Both train on CartPole-v1 and Pendulum-v1 with the same hyperparameters and several seeds. The
+curves on Acrobot go to data/sb3_curves.json: tests/test_policy_gradients_curves.py puts those of
+the native engine beside them.
 """
 
 from __future__ import annotations
 
-import multiprocessing
+import json
 import sys
-from concurrent.futures import ProcessPoolExecutor
 from itertools import combinations
-from pathlib import Path
 
 import numpy as np
+from study import DATA, ROOT, side_by_side
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "lib" / "walkthroughs"))
+sys.path.insert(0, str(ROOT / "lib" / "walkthroughs"))
 
 SETTINGS = {
     "CartPole-v1": {
@@ -25,10 +27,14 @@ SETTINGS = {
         "total_timesteps": 100_000, "n_envs": 4, "n_steps": 1024, "batch_size": 64, "n_epochs": 10,
         "gamma": 0.9, "gae_lambda": 0.95, "learning_rate": 0.001, "clip_range": 0.2, "anneal": 0,
     },
+    "Acrobot-v1": {
+        "total_timesteps": 60_000, "n_envs": 16, "n_steps": 128, "batch_size": 256, "n_epochs": 4,
+        "gamma": 0.99, "gae_lambda": 0.94, "learning_rate": 0.001, "anneal": 0,
+    },
 }  # fmt: skip
 """Those of rl-zoo, but a plain Gaussian for Pendulum."""
+COMPARED = ("CartPole-v1", "Pendulum-v1")
 LIBRARIES = ("walkthrough", "Stable-Baselines3")
-PROCESSES = 2
 POINTS = 20
 """Of a learning curve, equally spaced; each is the mean of the last 20 training episodes."""
 EVALUATED, NEW_SEED = 100, 1_000_000
@@ -70,21 +76,15 @@ def stable_baselines3(env: str, seed: int) -> tuple[np.ndarray, np.ndarray]:
     return np.array(episodes), np.array(new)
 
 
-def trained(library: str, env: str, seed: int, folder: Path) -> None:
-    """One training, kept in the folder; none if it is there."""
+def trained(library: str, env: str, seed: int) -> tuple[np.ndarray, float]:
+    """One training: its curve, and its mean return in new episodes."""
     import torch
 
-    place = place_of(library, env, seed, folder)
-    if not place.exists():
-        torch.set_num_threads(1)
-        function = walkthrough if library == "walkthrough" else stable_baselines3
-        episodes, new = function(env, seed)
-        np.savez(place, episodes=episodes, new=new)
-        print(f"{library}, {env}, seed {seed}: {new.mean():.1f} in new episodes", flush=True)
-
-
-def place_of(library: str, env: str, seed: int, folder: Path) -> Path:
-    return folder / f"{library}_{env}_{seed}.npz"
+    torch.set_num_threads(1)
+    function = walkthrough if library == "walkthrough" else stable_baselines3
+    episodes, new = function(env, seed)
+    print(f"{library}, {env}, seed {seed}: {new.mean():.1f} in new episodes", flush=True)
+    return curve(episodes, SETTINGS[env]["total_timesteps"]), float(new.mean())
 
 
 def curve(episodes: np.ndarray, steps: int) -> np.ndarray:
@@ -124,29 +124,36 @@ def distance(one: np.ndarray, other: np.ndarray) -> float:
     return float(np.mean(apart / np.maximum(spread, 1e-9)))
 
 
-def compared(seeds: int, folder: Path) -> dict:
+def compared(seeds: int) -> dict:
     """{problem: {"steps", "libraries": {library: {"curves", "new"}}, "agreement"}}."""
-    folder.mkdir(parents=True, exist_ok=True)
-    numbers = range(1, seeds + 1)
-    jobs = [(lib, env, seed) for seed in numbers for env in SETTINGS for lib in LIBRARIES]
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(PROCESSES, mp_context=context) as pool:
-        for future in [pool.submit(trained, *job, folder) for job in jobs]:
-            future.result()
-    found = {}
-    for env in SETTINGS:
-        curves, new = {}, {}
-        for library in LIBRARIES:
-            runs = [np.load(place_of(library, env, seed, folder)) for seed in numbers]
-            steps = SETTINGS[env]["total_timesteps"]
-            curves[library] = np.stack([curve(run["episodes"], steps) for run in runs])
-            new[library] = np.array([run["new"].mean() for run in runs])
-        found[env] = {
+    jobs = [(lib, env) for env in COMPARED for lib in LIBRARIES]
+    every = [(*job, seed) for job in jobs for seed in range(1, seeds + 1)]
+    runs = side_by_side(trained, *zip(*every, strict=True))
+    found: dict = {}
+    for i, (library, env) in enumerate(jobs):
+        curves, new = map(np.array, zip(*runs[i * seeds : (i + 1) * seeds], strict=True))
+        of = found.setdefault(env, {"curves": {}, "new": {}})
+        of["curves"][library], of["new"][library] = curves, new
+    return {
+        env: {
             "steps": SETTINGS[env]["total_timesteps"],
             "libraries": {
-                library: {"curves": rows.round(1).tolist(), "new": new[library].round(2).tolist()}
-                for library, rows in curves.items()
+                library: {
+                    "curves": rows.round(1).tolist(),
+                    "new": of["new"][library].round(2).tolist(),
+                }
+                for library, rows in of["curves"].items()
             },
-            "agreement": agreement(env, curves, new),
+            "agreement": agreement(env, of["curves"], of["new"]),
         }
-    return found
+        for env, of in found.items()
+    }
+
+
+def main() -> None:
+    """See the top of the file."""
+    found = {}
+    for seed in range(1, 6):
+        points, _ = trained("Stable-Baselines3", "Acrobot-v1", seed)
+        found[seed] = [None if np.isnan(x) else round(float(x), 2) for x in points]
+    (DATA / "sb3_curves.json").write_text(json.dumps({"Acrobot-v1": found}, indent=1) + "\n")

@@ -1,18 +1,16 @@
 """Measures what docs/reports/results.md shows, and the planar runners of bodies.md: `make results`.
 
 Each part leaves a file in data/ (with commit, date and machine); tables and figures of the
-pages are made from these files alone. `--only speed` measures one part anew, `--only` none: the
-pages are written from what is there. The machine should have nothing else to do.
+pages are made from these files alone. `--only speed` measures one part anew. The machine should
+have nothing else to do.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
 import time
 from dataclasses import asdict
 from functools import partial
-from pathlib import Path
 
 import evolved
 import planar_runs
@@ -21,10 +19,8 @@ import run
 import trained
 from comparison import notice
 from processes import Neighbours
-from report import commit, machine
-from results_page import DATA, PLANAR_SPEED, SPEED, write
-
-REPOSITORY = Path(__file__).parents[2]
+from results_page import PLANAR_SPEED, SPEED, pages
+from study import DATA, keep, stamp
 
 
 def speed(parts: tuple[str, ...], quick: bool) -> dict:
@@ -32,13 +28,6 @@ def speed(parts: tuple[str, ...], quick: bool) -> dict:
     tables = {part: list(run.measured([part], quick)) for part in parts}
     print(notice())
     return {part: [asdict(table) for table in those] for part, those in tables.items()}
-
-
-def ppo(quick: bool) -> dict:
-    """Both PPOs; trainings that an interrupted measurement has finished are kept."""
-    return ppo_compare.compared(
-        2 if quick else 5, REPOSITORY / "results" / "ppo_compare" / commit()
-    )
 
 
 PARTS = {
@@ -54,7 +43,7 @@ PARTS = {
     "speed": partial(speed, SPEED),
     "planarspeed": partial(speed, PLANAR_SPEED),
     "trained": lambda quick: trained.trained(2 if quick else 5, 2000 if quick else None),
-    "ppo": ppo,
+    "ppo": lambda quick: ppo_compare.compared(2 if quick else 5),
 }
 """What is measured: quick -> data, for a file of the same name."""
 
@@ -64,25 +53,20 @@ def measure(name: str, quick: bool) -> None:
     print(f"-- {name}", flush=True)
     neighbours, start = Neighbours(), time.monotonic()
     data = PARTS[name](quick)
-    stamp = {
-        "commit": commit(),
-        "date": time.strftime("%Y-%m-%d", time.gmtime()),
-        "machine": machine(),
+    told = {
         "minutes": round((time.monotonic() - start) / 60, 1),
         "note": neighbours.sentence(),
     }
-    DATA.mkdir(exist_ok=True)
-    text = json.dumps({"measured": stamp, "data": data}, separators=(",", ":"))
-    # a line for each thing, so that a difference can be read
-    (DATA / f"{name}.json").write_text(text.replace(',"', ',\n"') + "\n", encoding="utf-8")
-    print(f"   {stamp['minutes']} minutes. {stamp['note']}", flush=True)
+    keep(DATA / f"{name}.json", {"measured": stamp() | told, "data": data})
+    print(f"   {told['minutes']} minutes. {told['note']}", flush=True)
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description="Measures and writes docs/reports/results.md.")
-    parser.add_argument("--only", nargs="*", choices=PARTS, metavar="PART", help=" ".join(PARTS))
+    parser.add_argument("--only", nargs="+", choices=PARTS, metavar="PART", help=" ".join(PARTS))
     parser.add_argument("--quick", action="store_true", help="to try the command, not to publish")
     options = parser.parse_args()
-    for name in PARTS if options.only is None else options.only:
+    for name in PARTS if not options.only else options.only:
         measure(name, options.quick)
-    write()
+    for page in pages():
+        page.write()

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import contextlib
 import io
-import multiprocessing
 import tempfile
 import time
-from concurrent.futures import ProcessPoolExecutor
+from functools import partial
+
+from study import side_by_side
 
 PROBLEMS = {"CartPole-v1": 500, "Pendulum-v1": -200, "Acrobot-v1": -85}
 """With the mean return that the defaults should reach."""
 NEW_EPISODES = 100
-PROCESSES = 2
 
 
-def train(problem: str, seed: int, steps: int | None) -> dict:
+def train(problem: str, steps: int | None, seed: int) -> dict:
     """One training: seconds, post-evaluations (steps count theirs too), models in new episodes."""
     from botschool.rl.training import train
     from botschool.rl.watch import Player
@@ -41,13 +41,7 @@ def train(problem: str, seed: int, steps: int | None) -> dict:
 def trained(seeds: int, steps: int | None = None) -> dict:
     """{problem: [what `train` gives, for seeds 1 to that]}."""
     found: dict = {}
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(PROCESSES, mp_context=context) as pool:
-        futures = {
-            problem: [pool.submit(train, problem, seed, steps) for seed in range(1, seeds + 1)]
-            for problem in PROBLEMS
-        }
-        for problem, those in futures.items():
-            found[problem] = [future.result() for future in those]
-            print(problem, *(each["last"] for each in found[problem]), flush=True)
+    for problem in PROBLEMS:
+        found[problem] = side_by_side(partial(train, problem, steps), range(1, seeds + 1))
+        print(problem, *(each["last"] for each in found[problem]), flush=True)
     return found
