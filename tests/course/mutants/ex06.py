@@ -49,7 +49,7 @@ def episode(brain, start, cylinder, seed, remember=keep, maxsteps=500):
 
 # %% memory_after_the_step loses 6.2
 # Records the memory after each step, not the one that the network was given.
-# says: one place too early
+# says: this
 _episode = episode
 
 
@@ -62,7 +62,7 @@ def episode(brain, start, cylinder, seed, remember=keep, maxsteps=500):
 
 # %% poses_not_copied loses 6.2
 # Gives the last pose in every row of poses, but the start and the pose after each step are asked for (arena.robots changes: copy it each time).
-# says: Keep a copy each time \(.copy\(\)\)
+# says: this
 _episode = episode
 
 
@@ -83,7 +83,7 @@ def episode(brain, start, cylinder, seed, remember=keep, maxsteps=500):
 
 # %% start_missing loses 6.2
 # Leaves the start out of poses, but it should be their first row.
-# says: The first one is missing
+# says: this
 _episode = episode
 
 
@@ -94,7 +94,7 @@ def episode(brain, start, cylinder, seed, remember=keep, maxsteps=500):
 
 # %% heading_slowest loses 6.3
 # Goes through all places with one heading, then with the next, but the heading should change fastest.
-# says: in another order
+# says: this
 _grid = grid
 
 
@@ -111,14 +111,14 @@ def grid(places, headings):
 
 # %% nothing_has_no_mean loses 6.4
 # Gives NaN where no step belongs to the search or to the steps near the cylinder, but 0 is asked for.
-# says: NaN
+# says: this
 def mean(values):
     return float(np.sum(values)) / len(values) if len(values) else float("nan")
 
 
 # %% search_with_the_find loses 6.4
 # Makes the search one step too long, but it should end before the first step with a reward.
-# says: one more than expected
+# says: this
 _describe = describe
 
 
@@ -200,7 +200,7 @@ def families(table, threshold):
 
 # %% sample_deviation loses 6.5
 # Divides by n - 1 in the standard deviation, but n is asked for (ddof=0).
-# says: n and n - 1 were mixed up
+# says: this
 # -     deviation = table.std(axis=0)
 # +     deviation = table.std(axis=0, ddof=1)
 
@@ -233,14 +233,14 @@ def freeze(since):
 
 # %% frozen_is_forgotten loses 6.6
 # Empties the memory from step `since` on, but it should stay as it was before that step.
-# says: All values are 0
+# says: this
 def freeze(since):
     return lambda step, before, after: after if step < since else np.zeros_like(after)
 
 
 # %% total_not_mean loses 6.6
 # Adds the returns of all episodes, but their mean is asked for.
-# says: a sum|the sum
+# says: this
 _memory_test = memory_test
 
 
@@ -376,7 +376,7 @@ def reactions(brain, observation, memories):
 
 # %% never_near_searches_nothing loses 6.4
 # Gives a search of 0 steps if there is no reward, but all steps should belong to the search then.
-# says: search is 0, but
+# says: this
 # -     search = int(near.argmax()) if near.any() else len(rewards)
 # +     search = int(near.argmax())
 
@@ -760,14 +760,14 @@ def families(table, threshold):
 
 # %% bias_after_tanh loses 6.1
 # Adds the bias of the wheels after tanh, but it should be added inside.
-# says: added after tanh
+# says: this
 # -     action = np.tanh(brain["readout"] @ outputs + brain["bias"])
 # +     action = np.tanh(brain["readout"] @ outputs) + brain["bias"]
 
 
 # %% output_gate_sees_new_cells loses 6.1
 # Shows the output gate tanh of the new cells instead of the outputs of the step before.
-# says: all gates should see the same z
+# says: this
 def think(brain, observation, memory):
     z = np.concatenate([observation, memory[1]])
     Wf, Wi, Wo, Wc = brain["gates"]
@@ -779,7 +779,7 @@ def think(brain, observation, memory):
 
 # %% rows_exchanged_throughout loses 6.1
 # Takes row 0 of the memory for the outputs and row 1 for the cells, but row 0 should be the cells and row 1 the outputs.
-# says: Cells and outputs are exchanged
+# says: this
 def think(brain, observation, memory):
     h, c = memory
     z = np.concatenate([observation, h])
@@ -791,7 +791,7 @@ def think(brain, observation, memory):
 
 # %% keeps_what_is_not_taken loses 6.1
 # Multiplies the old cells by 1 minus the input gate instead of the forget gate.
-# says: 1 minus the input gate
+# says: this
 def think(brain, observation, memory):
     z = np.concatenate([observation, memory[1]])
     _, i, o = (logistic(brain["gates"][k] @ z + (k == 0)) for k in range(3))
@@ -803,14 +803,14 @@ def think(brain, observation, memory):
 
 # %% headings_floored loses 6.3
 # Cuts off the fraction of the step between headings, but they should divide the whole turn evenly.
-# says: fraction of the step between headings is cut off
+# says: this
 # -     angles = np.arange(headings) * 2 * np.pi / headings
 # +     angles = np.arange(headings) * (2 * np.pi // headings)
 
 
 # %% near_is_all_after_the_search loses 6.4
 # Counts all steps after the search as near the cylinder, but only those with a reward should count.
-# says: All steps after the search count
+# says: this
 def describe(poses, rewards, cylinder):
     n = len(rewards)
     hits = np.flatnonzero(rewards)
@@ -834,7 +834,7 @@ def describe(poses, rewards, cylinder):
 
 # %% search_goes_on_after_the_find loses 6.4
 # Takes speed, turning and wall over all steps without a reward, not over the search alone.
-# says: the search should end at the first reward
+# says: this
 def describe(poses, rewards, cylinder):
     near = rewards == 1
     far = ~near
@@ -860,7 +860,7 @@ def describe(poses, rewards, cylinder):
 
 # %% short_way_on_one_side loses 6.4
 # Takes the short way around for changes below -pi only, but it is asked for above pi, too.
-# says: Only one direction is taken the short way
+# says: this
 # -     turned = (after[:, 2] - before[:, 2] + np.pi) % (2 * np.pi) - np.pi
 # +     turned = after[:, 2] - before[:, 2]
 # +     turned = np.where(turned < -np.pi, turned + 2 * np.pi, turned)
@@ -868,7 +868,7 @@ def describe(poses, rewards, cylinder):
 
 # %% hops_between_rewards loses 6.4
 # Takes for the pace the way from one place with a reward to the next such place, but the way in each step is asked for.
-# says: from one place with a reward to the next
+# says: this
 def describe(poses, rewards, cylinder):
     near = rewards > 0
     search = int(near.argmax()) if near.any() else len(rewards)
@@ -891,7 +891,7 @@ def describe(poses, rewards, cylinder):
 
 # %% scales_of_rows loses 6.5
 # Brings each row to one scale instead of each column.
-# says: not that of each column
+# says: this
 # -     deviation = table.std(axis=0)
 # -     alike = np.ptp(table, axis=0) == 0  # their deviation may be a rounding error
 # -     return np.where(alike, 0.0, (table - table.mean(axis=0)) / np.where(alike, 1.0, deviation))
@@ -902,21 +902,21 @@ def describe(poses, rewards, cylinder):
 
 # %% deviation_and_a_bit loses 6.5
 # Divides by the standard deviation plus 0.01 instead of the standard deviation.
-# says: Your code divides by
+# says: this
 def standardise(table):
     return (table - table.mean(axis=0)) / (table.std(axis=0) + 0.01)
 
 
 # %% first_pair_that_is_near loses 6.5
 # Merges the first pair nearer than the threshold, but the two nearest families should be merged.
-# says: the two nearest families should be merged
+# says: this
 # -         i, j = pairs[int(np.argmin(apart))]
 # +         i, j = next(p for p, a in zip(pairs, apart) if a < threshold)
 
 
 # %% keeps_the_new_memory_for_good loses 6.6
 # Keeps the memory after step `since` of the first episode, but the memory before step `since` of each episode is asked for.
-# says: it should stay what `before` is
+# says: this
 def freeze(since):
     kept = []
 
@@ -932,14 +932,14 @@ def freeze(since):
 
 # %% median_of_the_returns loses 6.6
 # Takes the median of the returns instead of the mean.
-# says: The median of the returns
+# says: this
 # -         returns[name] = float(np.mean([each["rewards"].sum() for each in episodes]))
 # +         returns[name] = float(np.median([each["rewards"].sum() for each in episodes]))
 
 
 # %% reads_the_old_outputs loses 6.7
 # Reads the actions from the given outputs, but a step of the network with each memory is asked for.
-# says: a step of the network with each memory is asked for
+# says: this
 def reactions(brain, observation, memories):
     h = memories[:, 1]
     return np.tanh(h @ brain["readout"].T + brain["bias"])
@@ -947,14 +947,14 @@ def reactions(brain, observation, memories):
 
 # %% grid_reshaped loses 6.3
 # Reshapes all x, y and headings to rows of three, which mixes them up, but a row should hold x, y, heading.
-# says: reshaped to rows of three
+# says: this
 # -     return np.array([(x, y, angle) for y in ys for x in xs for angle in angles])
 # +     return np.array(np.meshgrid(xs, ys, angles)).reshape(-1, 3)
 
 
 # %% memories_reshaped loses 6.7
 # Reshapes the memories to cells and outputs, which mixes those of different memories.
-# says: mixes those of different memories
+# says: this
 # -     return np.array([think(brain, observation, memory)[0] for memory in memories])
 # +     parts = np.moveaxis(np.asarray(memories).reshape(2, len(memories), -1), 0, 1)
 # +     return np.array([think(brain, observation, memory)[0] for memory in parts])
@@ -962,7 +962,7 @@ def reactions(brain, observation, memories):
 
 # %% one_memory_for_all_episodes loses 6.2
 # Begins with the memory that the episode before has left, not with 0, and gives the last memory in every row of memories (copy it).
-# says: something stays from call to call
+# says: stays from call to call
 # -     memory = np.zeros((2, UNITS))
 # +     memory = SHARED
 # -         memory = remember(len(steps) - 1, memory, after)
@@ -1109,7 +1109,6 @@ def describe(poses, rewards, cylinder):
 
 # %% inconsistency_for_distance loses 6.5
 # Compares the threshold with the inconsistency of a merger, as fcluster does by default, but the distance is asked for (criterion="distance").
-# says: this
 def families(table, threshold):
     from scipy.cluster.hierarchy import fcluster, linkage
 
@@ -1123,7 +1122,6 @@ def families(table, threshold):
 
 # %% square_distances_for_linkage loses 6.5
 # Takes the rows of the square matrix of distances for positions, as linkage does, but the distances themselves are asked for (condensed form).
-# says: this
 def families(table, threshold):
     from scipy.cluster.hierarchy import fcluster, linkage
     from scipy.spatial.distance import cdist

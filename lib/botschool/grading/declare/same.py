@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import ast
 import copy
+import functools
 import re
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
@@ -306,6 +307,7 @@ def _mapped(arguments: tuple, change: Callable[[np.ndarray], Any]) -> tuple:
     return tuple(change(each) if isinstance(each, np.ndarray) else each for each in arguments)
 
 
+@functools.cache
 def _docstring(solution: str, name: str) -> str:
     """Return the docstring of a function of our solution, or ""."""
     nodes = [each for each in ast.walk(ast.parse(solution)) if isinstance(each, ast.FunctionDef)]
