@@ -1157,3 +1157,201 @@ def grid(places, headings):
 # says: this
 # -     cells = memory[0] * logistic(forget + 1) + np.tanh(candidate) * logistic(enter)
 # +     cells = memory[0] * (1 - logistic(forget + 1)) + np.tanh(candidate) * logistic(enter)
+
+
+# %% new_cells_through_tanh loses 6.1
+# Puts tanh of the new cells into the new memory, but the new cells themselves are asked for.
+# says: this
+# -     return action, np.stack([cells, outputs])
+# +     return action, np.stack([np.tanh(cells), outputs])
+
+
+# %% one_for_all_gates loses 6.1
+# Adds the 1 to the net inputs of all gates, but it belongs to the forget gate alone.
+# says: this
+# -     forget, enter, leave, candidate = brain["gates"] @ z
+# +     forget, enter, leave, candidate = brain["gates"] @ z + 1
+# -     cells = memory[0] * logistic(forget + 1) + np.tanh(candidate) * logistic(enter)
+# +     cells = memory[0] * logistic(forget) + np.tanh(candidate) * logistic(enter)
+
+
+# %% one_for_the_three_gates loses 6.1
+# Adds the 1 to the forget, the input and the output gate, but it belongs to the forget gate alone.
+# says: this
+# -     forget, enter, leave, candidate = brain["gates"] @ z
+# +     forget, enter, leave, candidate = brain["gates"] @ z
+# +     enter, leave = enter + 1, leave + 1
+
+
+# %% gates_by_tanh loses 6.1
+# Puts the three gates through tanh instead of the logistic function.
+# says: this
+# -     forget, enter, leave, candidate = brain["gates"] @ z
+# +     forget, enter, leave, candidate = brain["gates"] @ z
+# +     logistic = np.tanh
+
+
+# %% output_gate_inside_tanh loses 6.1
+# Multiplies the new cells by the output gate inside tanh, but tanh(new cells) should be multiplied by it.
+# says: this
+# -     outputs = np.tanh(cells) * logistic(leave)
+# +     outputs = np.tanh(cells * logistic(leave))
+
+
+# %% order_of_other_lstms loses 6.1
+# Takes gates[2] for the candidate and gates[3] for the output gate, but gates[2] should be the output gate and gates[3] the candidate.
+# says: this
+# -     forget, enter, leave, candidate = brain["gates"] @ z
+# +     forget, enter, candidate, leave = brain["gates"] @ z
+
+
+# %% action_of_tanh_of_the_cells loses 6.1
+# Reads the action from tanh of the new cells, without the output gate.
+# says: this
+# -     action = np.tanh(brain["readout"] @ outputs + brain["bias"])
+# +     action = np.tanh(brain["readout"] @ np.tanh(cells) + brain["bias"])
+
+
+# %% placed_before_the_reset loses 6.2
+# Puts robot and cylinder at the given places before the arena is reset, but the reset moves them: it should come first.
+# says: this
+# -     arena.reset(seed)
+# -     arena.robots[0] = start
+# -     arena.objects[0, :2] = cylinder
+# -     arena.sense()
+# +     arena.robots[0] = start
+# +     arena.objects[0, :2] = cylinder
+# +     arena.reset(seed)
+# +     arena.sense()
+
+
+# %% ends_when_it_is_found loses 6.2
+# Ends the episode with the first reward, but it should go on to maxsteps or a collision.
+# says: this
+# -         memory = remember(len(steps) - 1, memory, after)
+# +         memory = remember(len(steps) - 1, memory, after)
+# +         if steps[-1][-1] > 0:
+# +             break
+
+
+# %% thinks_without_memory loses 6.2
+# Gives `think` an empty memory in each step, not what `remember` has returned.
+# says: this
+# -         action, after = think(brain, observation, memory)
+# +         action, after = think(brain, observation, np.zeros((2, UNITS)))
+
+
+# %% before_is_the_first_memory loses 6.2
+# Gives `remember` the memory at the beginning of the episode as `before`, not that before the step.
+# says: this
+# -         memory = remember(len(steps) - 1, memory, after)
+# +         memory = remember(len(steps) - 1, np.zeros((2, UNITS)), after)
+
+
+# %% middles_of_parts loses 6.3
+# Takes the middles of equal parts of the range for x and y, but both ends should belong to the grid.
+# says: this
+# -     ys, xs = np.linspace(270, 350, places), np.linspace(150, 250, places)
+# +     middles = (np.arange(places) + 0.5) / places
+# +     ys, xs = 270 + 80 * middles, 150 + 100 * middles
+
+
+# %% headings_between_minus_pi_and_pi loses 6.3
+# Brings the headings between -pi and pi, but they should grow from 0 to less than 2 pi.
+# says: this
+# -     angles = np.arange(headings) * 2 * np.pi / headings
+# +     angles = (np.arange(headings) * 2 * np.pi / headings + np.pi) % (2 * np.pi) - np.pi
+
+
+# %% middle_heading loses 6.4
+# Takes the mean of the headings before and after the step for the speed, but the heading at the beginning of the step is asked for.
+# says: this
+# -     forward = moved[:, 0] * np.cos(before[:, 2]) + moved[:, 1] * np.sin(before[:, 2])
+# +     middle = (before[:, 2] + after[:, 2]) / 2
+# +     forward = moved[:, 0] * np.cos(middle) + moved[:, 1] * np.sin(middle)
+
+
+# %% speed_from_start_to_find loses 6.4
+# Divides the straight way of the whole search by its steps, but the mean way along the heading of each step is asked for.
+# says: this
+# -         "speed": mean(forward[:search]),
+# +         "speed": float(np.hypot(*(poses[search] - poses[0])[:2])) / max(search, 1),
+
+
+# %% sideways loses 6.4
+# Takes for the speed how far the robot moves sideways, but the way along its heading is asked for.
+# says: this
+# -     forward = moved[:, 0] * np.cos(before[:, 2]) + moved[:, 1] * np.sin(before[:, 2])
+# +     forward = moved[:, 1] * np.cos(before[:, 2]) - moved[:, 0] * np.sin(before[:, 2])
+
+
+# %% means_over_all_steps loses 6.4
+# Divides the sums by the number of all steps of the episode, but the means over the steps of the search, or near the cylinder, are asked for.
+# says: this
+_describe = describe
+
+
+def describe(poses, rewards, cylinder):
+    told, n = _describe(poses, rewards, cylinder), len(rewards)
+    near = int((rewards > 0).sum())
+    for key in ("speed", "turning", "wall"):
+        told[key] *= told["search"] / n
+    for key in ("pace", "side"):
+        told[key] *= near / n
+    return told
+
+
+# %% remainder_keeps_its_sign loses 6.4
+# Uses np.fmod, whose result keeps the sign, for the short way around, but `%` leads to it.
+# says: this
+# -     turned = (after[:, 2] - before[:, 2] + np.pi) % (2 * np.pi) - np.pi
+# +     turned = np.fmod(after[:, 2] - before[:, 2] + np.pi, 2 * np.pi) - np.pi
+
+
+# %% sensors_from_the_centre loses 6.4
+# Counts walls within 45 mm of the centre, but 72.5 mm is asked for.
+# says: this
+# -         "wall": mean(to_wall[:search] < 72.5),
+# +         "wall": mean(to_wall[:search] < 45),
+
+
+# %% arctan_of_a_quotient loses 6.4
+# Takes arctan(dy / dx) for the direction of the cylinder, which takes opposite directions for the same, but np.arctan2(dy, dx) is needed.
+# says: this
+# -     bearing = np.arctan2(away[:, 1], away[:, 0]) - after[:, 2]
+# +     bearing = np.arctan(away[:, 1] / np.where(away[:, 0] == 0, 1e-9, away[:, 0])) - after[:, 2]
+
+
+# %% angle_for_its_sine loses 6.4
+# Gives the mean angle to the cylinder, the short way around, for the side, but the mean of its sine is asked for.
+# says: this
+# -         "side": mean(np.sin(bearing[near])),
+# +         "side": mean((bearing[near] + np.pi) % (2 * np.pi) - np.pi),
+
+
+# %% from_lowest_to_highest loses 6.5
+# Brings each column between 0 and 1, but mean 0 and standard deviation 1 are asked for.
+# says: this
+# -     return np.where(alike, 0.0, (table - table.mean(axis=0)) / np.where(alike, 1.0, deviation))
+# +     return np.where(alike, 0.0, (table - table.min(axis=0)) / np.where(alike, 1.0, np.ptp(table, axis=0)))
+
+
+# %% median_over_pairs loses 6.5
+# Takes the median over all pairs of robots for the distance of two families, but the mean is asked for.
+# says: this
+# -         apart = [distance[np.ix_(groups[i], groups[j])].mean() for i, j in pairs]
+# +         apart = [np.median(distance[np.ix_(groups[i], groups[j])]) for i, j in pairs]
+
+
+# %% first_robots_stand_for_families loses 6.5
+# Takes the distance of the first robots of two families, but the mean over all pairs is asked for.
+# says: this
+# -         apart = [distance[np.ix_(groups[i], groups[j])].mean() for i, j in pairs]
+# +         apart = [distance[groups[i][0], groups[j][0]] for i, j in pairs]
+
+
+# %% steps_for_returns loses 6.6
+# Takes the number of steps of an episode for its return, but the sum of its rewards is asked for.
+# says: this
+# -         returns[name] = float(np.mean([each["rewards"].sum() for each in episodes]))
+# +         returns[name] = float(np.mean([len(each["rewards"]) for each in episodes]))
