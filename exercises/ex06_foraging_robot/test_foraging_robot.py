@@ -273,6 +273,7 @@ def by_mean_distance(rng):
 
 # ------------------------------------------------------------------- 6.6
 without = exercise.task("6.6", "Without memory", seconds=90, needs=("6.2",))
+A_START = "a start has three numbers"
 
 
 def remembering(module, since, first, afters):
@@ -309,7 +310,7 @@ def ways_to_remember(rng):
         yield since, np.repeat([[0.5], [0.505]], UNITS, axis=1), afters
 
 
-@same(without, 9, "memory_test", 1e-9)
+@same(without, 9, "memory_test", 1e-9, off={"square": A_START, "one": A_START})
 def what_memory_is_worth(rng):
     cases = (1, 6, 16), (1, 9, 20), (3, 20, 70), (3, 25, 80)
     for which, (many, since, maxsteps) in zip((0, 1, 2, 2), cases, strict=True):
