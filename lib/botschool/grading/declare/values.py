@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import reprlib
 from collections.abc import Iterable
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,8 @@ FEW = 6
 """Numbers of an array that is shown whole."""
 PASTED = 24
 """Numbers in an argument of a call to paste; characters of other arguments."""
+MOST_EQUAL = 200
+"""Numbers in such an argument if many neighbours are equal."""
 MAX_CALL = 300
 """Characters of a call to paste."""
 DIGITS = 6
@@ -156,12 +159,13 @@ def pasted(
 def paste(value: Any, most: int = PASTED) -> str:
     """Return a value as Python; "" if it is too large."""
     if isinstance(value, np.ndarray):
-        if value.size > most:
-            return ""
         if value.ndim == 0:
             return repr(value.item())
+        listed = repr(value.tolist()) if value.size <= most else ""
+        if value.ndim == 1 and PASTED < value.size <= MOST_EQUAL:
+            listed = _with_runs(value, most)
         kept = "" if value.dtype in (np.float64, np.int64, np.bool_) else f", dtype='{value.dtype}'"
-        return f"np.array({value.tolist()!r}{kept})"
+        return f"np.array({listed}{kept})" if listed else ""
     if isinstance(value, (np.generic,)):
         return repr(value.item())
     if isinstance(value, dict):
@@ -174,6 +178,16 @@ def paste(value: Any, most: int = PASTED) -> str:
         return "" if len(parts) > most or not all(parts) else f"[{', '.join(parts)}]"
     text = repr_of(value)
     return text if len(text) <= 120 else ""
+
+
+def _with_runs(array: np.ndarray, most: int) -> str:
+    """Return a list of numbers as Python, with equal neighbours in short: [1.0, *9 * [0.0]].
+
+    It is "" if it has too many parts.
+    """
+    runs = [(text, len(list(run))) for text, run in groupby(map(repr, array.tolist()))]
+    parts = [f"*{many} * [{text}]" if many > 1 else text for text, many in runs]
+    return f"[{', '.join(parts)}]" if len(parts) <= most else ""
 
 
 def repr_of(value: Any) -> str:
