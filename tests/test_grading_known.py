@@ -273,6 +273,12 @@ def test_a_mistake_that_fits_no_more_is_left_out(messages):
     assert "half of the distance" in messages(RIGHT + half, declared(mistakes=text))[0]
 
 
+def test_an_array_is_no_proof_of_an_exception():
+    call = replay.Call(b"", np.arange(9.0), got={"raised": "ValueError", "text": "no"})
+    assert call.agrees(np.zeros(9)) and call.proof(np.zeros(9)) == 0
+    assert call.agrees(dict(call.got)) and call.proof(dict(call.got)) == 1
+
+
 def test_the_smallest_failing_case_is_told(messages, monkeypatch):
     monkeypatch.setattr(replay, "variations", lambda *_: iter(()))
     exercise = declared(inputs=((1.0, 2.0, 4.0, 5.5, 8.0), (1.0, 4.0)), mistakes="")

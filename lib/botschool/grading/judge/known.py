@@ -100,7 +100,8 @@ class Call:
 
     def proof(self, made: Any) -> float:
         """Return how much proof an answer that agrees is."""
-        if self.slow or self.loose or (_raised(self.got) and made != self.got):
+        unlike = _raised(self.got) and not (_raised(made) and made == self.got)
+        if self.slow or self.loose or unlike:
             return 0.0
         if self.equal is not None and not _raised(self.got):
             return float(self.wrong)
