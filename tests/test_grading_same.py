@@ -246,6 +246,17 @@ def test_a_mistake_is_named_also_where_chance_decides(graded):
     assert messages["4.1"].startswith("Your code leaves out the factor.\nmixed(np.array(")
 
 
+@pytest.mark.parametrize(
+    "name, key", [("mixed", "0"), ("mixed", "a[3]"), ("logs", "np.ndim(a[0])")]
+)
+def test_an_answer_that_stays_is_named(graded, name, key):
+    """Already the second input shows it."""
+    _, messages = graded(KEPT.format(name=name, key=key))
+    (message,) = filter(None, messages.values())
+    assert message.startswith("The same call in a new process gives the right answer")
+    assert len(message.split()) < 80
+
+
 def test_the_smallest_call_is_shown(graded):
     _, messages = graded("def judged(value):\n    return {'value': value, 'word': 'low'}")
     assert messages["4.5"].splitlines()[-1] == ("judged(0.2): value is 0.2, but 0.4 was expected.")

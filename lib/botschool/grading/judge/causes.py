@@ -17,8 +17,9 @@ from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.diagnosis import diagnose
 from botschool.grading.declare.exercise import Task
 from botschool.grading.declare.mistakes import Known
+from botschool.grading.declare.same import KEPT as STAYS
 from botschool.grading.declare.same import Same
-from botschool.grading.judge.afresh import answers_afresh
+from botschool.grading.judge.afresh import KEPT, answers_afresh, kept_something
 from botschool.grading.judge.alike import TIE, distance
 from botschool.grading.judge.known import Call, answered_by, calls_of, named
 from botschool.grading.judge.looking import Failure, looked_at_again
@@ -93,7 +94,7 @@ class Explanation:
                 with suppress(BotschoolError, Wrong):  # no time is left
                     if told := named(other, some, self.task, self.known, again.text):
                         return told
-        return "" if self.quiet else self._diagnosed(calls) or self._by_chance(again)
+        return "" if self.quiet else self._diagnosed(calls) or self._not_steady(again)
 
     def _diagnosed(self, calls: list[Call]) -> str:
         """Return a sentence that two wrong answers suggest, or ""."""
@@ -106,12 +107,15 @@ class Explanation:
         alike = {_DIGITS.sub("", each) for each in told}
         return told[0] if len(told) > 1 and len(alike) == 1 else ""
 
-    def _by_chance(self, again: Student) -> str:
+    def _not_steady(self, again: Student) -> str:
         """Return a sentence if two equal calls have different answers."""
         failure = next((each for each in self.failures if each.quick), None)
-        if failure is None:
+        if failure is None or STAYS in failure.text:
             return ""
-        return looked_at_again(failure, again, partial(self._our_student, 10.0)).strip()
+        ours = partial(self._our_student, 10.0)
+        if failure.answered and kept_something(failure, self.begun, ours):
+            return KEPT
+        return looked_at_again(failure, again, ours).strip()
 
     def _our_student(self, seconds: float) -> Student:
         limits = seconds, self.task.memory, self.ours.server, True
