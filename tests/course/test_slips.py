@@ -46,6 +46,13 @@ def missed(number, chosen):
         return {f"{task.id}: {each.what}" for task, each in chosen if not problem(task, each.text)}
 
 
+@pytest.fixture(autouse=True)
+def elsewhere(monkeypatch, tmp_path):
+    """Let drivers write their files in a folder of their own."""
+    monkeypatch.setenv("BOTSCHOOL_COURSE", str(building.ROOT))
+    monkeypatch.chdir(tmp_path)
+
+
 def order(pair):
     return hashlib.sha256(pair[1].text.encode()).digest()
 
