@@ -321,7 +321,7 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 
 # %% diagonal_filled_in_place loses 5.8
 # Fills the diagonal of the given matrix itself with minus infinity, but the matrix should stay as it is.
-# says: changed the matrix
+# says: work on a copy
 # -     others = np.where(np.eye(n, dtype=bool), -np.inf, matrix)
 # -     return {
 # +     answer = {
@@ -522,7 +522,7 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 
 # %% first_body_kept loses 5.1
 # Gives the answer for the first body for all others, too.
-# says: the same answer for 2 different bodies
+# says: in a new process gives the right answer
 _sizes, _kept = sizes, {}
 
 
@@ -550,7 +550,7 @@ def sizes(parameters):
 
 # %% limits_sorted_in_place loses 5.2
 # Sorts the two limits of each joint in the given parameters themselves, but these should stay as they are.
-# says: changed the parameters
+# says: work on a copy
 # -     limits = np.pi / 2 * np.clip(parameters[22:42], -1, 1).reshape(JOINTS, 2)
 # +     parameters[22:42].reshape(JOINTS, 2).sort(axis=1)
 # +     limits = np.pi / 2 * np.clip(parameters[22:42], -1, 1).reshape(JOINTS, 2)
@@ -1032,3 +1032,177 @@ def joints(parameters: np.ndarray) -> dict:
 # +     hidden, outputs = 10, 10
 # +     network = OBSERVATIONS * hidden + hidden * outputs + hidden + outputs
 # +     return genotype[network : network + BODY]
+
+
+# %% one_plus_tanh_times_factor loses 5.1
+# Takes 0.9 (1 + tanh p) instead of 1 + 0.9 tanh p for lengths and thicknesses.
+# -     scales = 1 + 0.9 * np.tanh(parameters[:22].reshape(SEGMENTS, 2))
+# +     scales = 0.9 * (1 + np.tanh(parameters[:22].reshape(SEGMENTS, 2)))
+
+
+# %% densities_vary_like_lengths loses 5.1
+# Lets the density vary by 90 %, as the sizes do, but it should vary by 0.8.
+# -     densities = 5 + 0.8 * np.tanh(parameters[53:])
+# +     densities = 5 * (1 + 0.9 * np.tanh(parameters[53:]))
+
+
+# %% round_rods loses 5.1
+# Takes the segments for round rods, but a mass should be length x thickness x density.
+# -         "masses": lengths * thicknesses * densities,
+# +         "masses": lengths * np.pi * (thicknesses / 2) ** 2 * densities,
+
+
+# %% nothing_cut_off loses 5.2
+# Scales the parameters of angles and limits without cutting them off at -1 and 1.
+# -     limits = np.pi / 2 * np.clip(parameters[22:42], -1, 1).reshape(JOINTS, 2)
+# +     limits = np.pi / 2 * parameters[22:42].reshape(JOINTS, 2)
+# -         "angles": 3 * np.pi / 4 * np.clip(parameters[42:53], -1, 1),
+# +         "angles": 3 * np.pi / 4 * parameters[42:53],
+
+
+# %% limits_around_zero loses 5.2
+# Takes minus the upper limit for the lower one, but each limit has a parameter of its own.
+# -         "lower": limits.min(axis=1),
+# +         "lower": -limits.max(axis=1),
+
+
+# %% one_list_of_corners loses 5.3
+# Gives all 44 corners in one list, but the four corners of each segment belong together.
+# -     return np.stack([beginnings - side, ends - side, ends + side, beginnings + side], axis=1)
+# +     corners = np.stack([beginnings - side, ends - side, ends + side, beginnings + side], axis=1)
+# +     return corners.reshape(-1, 2)
+
+
+# %% closed_rectangles loses 5.3
+# Repeats the first corner of each segment at the end, but each of the four should be there once.
+# -     return np.stack([beginnings - side, ends - side, ends + side, beginnings + side], axis=1)
+# +     corners = [beginnings - side, ends - side, ends + side, beginnings + side]
+# +     return np.stack([*corners, corners[0]], axis=1)
+
+
+# %% across_the_ground loses 5.3
+# Goes straight up and down to the corners, but the direction across a segment turns with it.
+# -     across = np.stack([-np.sin(headings), np.cos(headings)], axis=1)
+# +     across = np.stack([0 * headings, 1 + 0 * headings], axis=1)
+
+
+# %% headings_from_the_last loses 5.3
+# Adds the default angles up from the last segment on, but it should be done from the torso on.
+# -     headings = np.cumsum(joints(parameters)["angles"])
+# +     headings = np.cumsum(joints(parameters)["angles"][::-1])[::-1]
+
+
+# %% angles_as_degrees loses 5.3
+# Takes the default angles for degrees, but they are radians.
+# -     headings = np.cumsum(joints(parameters)["angles"])
+# +     headings = np.radians(np.cumsum(joints(parameters)["angles"]))
+
+
+# %% width_from_zero loses 5.4
+# Takes the largest coordinates for width and height, but the smallest should be subtracted.
+# -     width, height = np.ptp(outline(parameters), axis=(0, 1))
+# +     width, height = outline(parameters).max(axis=(0, 1))
+
+
+# %% widest_segment loses 5.4
+# Takes the largest width and height of a single segment, but those of the whole body are asked for.
+# -     width, height = np.ptp(outline(parameters), axis=(0, 1))
+# +     width, height = np.ptp(outline(parameters), axis=1).max(axis=0)
+
+
+# %% best_of_all_runs loses 5.5
+# Returns the walker of the last run only, but each run should have a row.
+# -         walkers.append(run.record.bestg)
+# -     return np.array(walkers)
+# +         walkers = run.record.bestg
+# +     return np.array(walkers)
+
+
+# %% next_seeds loses 5.5
+# Counts on from the first seed, but each seed of the list should be used.
+# -     for seed in seeds:
+# -         run = Run(experiment, seed)
+# +     for seed in range(seeds[0], seeds[0] + len(seeds)):
+# +         run = Run(experiment, seed)
+
+
+# %% bodies_of_the_walkers loses 5.5
+# Returns the bodies alone, but the whole genotypes are asked for.
+# -     return np.array(walkers)
+# +     return np.array(walkers)[:, -134:-70]
+
+
+# %% body_added_to_the_own loses 5.6
+# Puts the foreign body behind the brain's own, but it should take its place.
+# -     chimera[-2 * OBSERVATIONS - BODY : -2 * OBSERVATIONS] = body_of(body)
+# -     return chimera
+# +     return np.concatenate([brain[: -2 * OBSERVATIONS], body_of(body), brain[-2 * OBSERVATIONS :]])
+
+
+# %% without_normalisation loses 5.6
+# Leaves means and deviations out, but those of the brain should follow the body.
+# -     chimera[-2 * OBSERVATIONS - BODY : -2 * OBSERVATIONS] = body_of(body)
+# -     return chimera
+# +     return np.concatenate([brain[: -2 * OBSERVATIONS - BODY], body_of(body)])
+
+
+# %% one_episode_always loses 5.7
+# Evaluates one episode, however many are asked for.
+# -                 SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed, episodes).mean()
+# +                 SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed, 1).mean()
+
+
+# %% minus_the_own loses 5.7
+# Subtracts the return in the own body, but the returns themselves are asked for.
+_cross_evaluate = cross_evaluate
+
+
+def cross_evaluate(experiment_file, walkers, seed, episodes):
+    matrix = _cross_evaluate(experiment_file, walkers, seed, episodes)
+    return matrix - np.diagonal(matrix)[:, None]
+
+
+# %% others_divided_by_all loses 5.8
+# Divides the sum of a brain's or body's others by n instead of n - 1.
+# -         "brains": own - (matrix.sum(axis=1) - own) / (n - 1),
+# -         "bodies": own - (matrix.sum(axis=0) - own) / (n - 1),
+# +         "brains": own - (matrix.sum(axis=1) - own) / n,
+# +         "bodies": own - (matrix.sum(axis=0) - own) / n,
+
+
+# %% all_foreign_for_each loses 5.8
+# Subtracts the mean of all foreign places instead of that of the row or column.
+# -         "brains": own - (matrix.sum(axis=1) - own) / (n - 1),
+# -         "bodies": own - (matrix.sum(axis=0) - own) / (n - 1),
+# +         "brains": own - foreign / (n * n - n),
+# +         "bodies": own - foreign / (n * n - n),
+
+
+# %% foreign_minus_own loses 5.8
+# Subtracts the own return from the mean of the others, but it should be the other way round.
+# -         "brains": own - (matrix.sum(axis=1) - own) / (n - 1),
+# -         "bodies": own - (matrix.sum(axis=0) - own) / (n - 1),
+# +         "brains": (matrix.sum(axis=1) - own) / (n - 1) - own,
+# +         "bodies": (matrix.sum(axis=0) - own) / (n - 1) - own,
+
+
+# %% home_against_any loses 5.8
+# Counts a brain that beats at least one of its others, but it should beat each of them.
+# -     others = np.where(np.eye(n, dtype=bool), -np.inf, matrix)
+# +     others = np.where(np.eye(n, dtype=bool), np.inf, matrix)
+# -         "at home": int(np.sum(own > others.max(axis=1))),
+# +         "at home": int(np.sum(own > others.min(axis=1))),
+
+
+# %% pairs_counted loses 5.8
+# Counts pairs in which a brain does worse than in its own body, but brains should be counted.
+# -         "at home": int(np.sum(own > others.max(axis=1))),
+# +         "at home": int(np.sum(own[:, None] > matrix)),
+
+
+# %% average_losses loses 5.8
+# Gives the mean of all losses, but one number for each brain and each body is asked for.
+# -         "brains": own - (matrix.sum(axis=1) - own) / (n - 1),
+# -         "bodies": own - (matrix.sum(axis=0) - own) / (n - 1),
+# +         "brains": float(np.mean(own - (matrix.sum(axis=1) - own) / (n - 1))),
+# +         "bodies": float(np.mean(own - (matrix.sum(axis=0) - own) / (n - 1))),
