@@ -696,3 +696,21 @@ def run_replications(
 # -         for kind in ("best", "bestg"):
 # +         row["best"] = float(stat["best fitness"][-1])
 # +         for kind in ("bestg",):
+
+
+# %% end_of_the_first_link loses 4.2
+# Returns the height of the first link's end, but the height of the free end is asked for.
+# -     return float(-np.cos(state["angle1"]) - np.cos(state["angle1"] + state["angle2"]))
+# +     return float(-np.cos(state["angle1"]))
+
+
+# %% best_of_the_last_generation loses 4.3
+# Returns the best fitness of the last generation instead of the best post-evaluated fitness.
+# -         fitness[seed] = float(run.record.bestg_fitness)
+# +         fitness[seed] = float(np.load(Path(folder) / f"statS{seed}.npy")[-3])
+
+
+# %% all_numbers_of_the_file loses 4.4
+# Returns all numbers of the file under each name, but those of one column are asked for.
+# -     return {name: table[:, column] for column, name in enumerate(COLUMNS)}
+# +     return {name: table.ravel() for column, name in enumerate(COLUMNS)}
