@@ -209,6 +209,16 @@ def test_a_call_returns_and_a_part_of_its_answer_is(said, verb):
         expect_close(said, 1, 2)
 
 
+@pytest.mark.parametrize(
+    ("value", "wanted"),
+    [(5.0, np.inf), (-1e300, -np.inf), (3.0, np.nan), ([1.0, 5.0], [1.0, np.inf]),
+     ([5.0, 2.0], [np.inf, 1.0]), (np.float32([3.5, 9.5]), [np.inf, 24.6]),
+     ([np.inf, 2.0], [np.inf, 1.0])],
+)  # fmt: skip
+def test_no_number_is_near_infinity_or_nan(value, wanted):
+    assert "expected" in wrong(value, wanted)
+
+
 def test_types_and_shapes_are_said():
     assert wrong([1, 2], np.zeros(3)) == (
         "f(1) returned a list of 2 numbers, but 3 numbers were expected."

@@ -142,7 +142,9 @@ def expect_close(
         expect_array(said, np.where(odd, 0.0, array), wanted.shape),
         np.where(odd, 0.0, wanted),
     )
-    close = np.abs(got - wanted) <= _allowed(got, wanted, tolerance)
+    finite = np.isfinite(wanted)
+    nearly = np.where(finite, wanted, 0.0)
+    close = finite & (np.abs(got - nearly) <= _allowed(got, nearly, tolerance))
     if not close.all():
         shown = show(got) if isinstance(value, np.ndarray) else start_of(got)
         sentence = _unequal(said, got, wanted, close, shown)
