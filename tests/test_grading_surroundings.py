@@ -1,10 +1,8 @@
 """What a submission finds around it while it is graded: functions and files of the grader's."""
 
 from functools import partial, wraps
-from pathlib import Path
-from types import ModuleType, SimpleNamespace
+from types import SimpleNamespace
 
-from botschool.course.robots import use_robot
 from botschool.grading import Exercise, expect
 from botschool.grading.run.replaced import replaced
 from tiny_course import FILE
@@ -63,19 +61,6 @@ def test_what_is_no_plain_function_is_replaced_by_name():
             module.function(2)
         assert len(seen) == 1
         assert module.function is function
-
-
-def test_another_robot_takes_the_place_of_the_courses_own(tmp_path, monkeypatch):
-    """Also where the submission has kept the path since it was loaded, as a text or a Path."""
-    monkeypatch.chdir(tmp_path)
-    module = ModuleType("submission")
-    module.kept = Path("data/robots/balance_bot.urdf")
-    module.as_text, module.other = str(module.kept), "data/robots/other.urdf"
-    use_robot(module, "<robot/>")
-    own = tmp_path / "balance_bot.urdf"
-    assert own.read_text() == "<robot/>"
-    assert module.robot_file("balance_bot.urdf") == module.kept == own
-    assert (module.as_text, module.other) == (str(own), "data/robots/other.urdf")
 
 
 def test_the_course_is_found_while_a_file_is_loaded(messages):

@@ -274,8 +274,7 @@ def without_pybullet(monkeypatch, tmp_path):
     monkeypatch.syspath_prepend(folder)
     for name in names:
         monkeypatch.setitem(sys.modules, name, stand_in)
-    for name in ("botschool.course.bullet", "slips"):
-        monkeypatch.delitem(sys.modules, name, raising=False)
+    monkeypatch.delitem(sys.modules, "botschool.course.bullet", raising=False)
     exercise = load_exercise(10, ROOT)
     exercise.imports = ("hides_pybullet",)
     return exercise
@@ -294,9 +293,9 @@ def test_exercise_10_is_graded_without_pybullet(without_pybullet):
 @pytest.mark.parametrize(
     ("old", "new", "task", "says"),
     [
-        ("0, 0, -10", "-10, 0, 0", "10.4", "Gravity pulls along x"),
+        ("0, 0, -10", "-10, 0, 0", "10.4", "gravity along x"),
         ("            flags=pybullet.URDF_USE_INERTIA_FROM_FILE,\n", "", "10.4", "inertias"),
-        ("(1, -self.speed)", "(1, self.speed)", "10.5", "motor 1 should get -self.speed"),
+        ("(1, -self.speed)", "(1, self.speed)", "10.5", "motor 1 -self.speed"),
         ("targetVelocity=target,", "targetVelocity=target, force=0.1,", "10.5", "force"),
         ("        self.drive(action)\n        pybullet.stepSimulation(self.client)\n",
          "        pybullet.stepSimulation(self.client)\n        self.drive(action)\n",

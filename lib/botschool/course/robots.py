@@ -1,10 +1,9 @@
-"""Give exercise 10 the robot, its package, and pictures of balance."""
+"""Give exercise 10 robots, its package, pictures of balance, and drivers of its grader."""
 
 from __future__ import annotations
 
 import inspect
 from pathlib import Path
-from types import ModuleType
 
 import numpy as np
 
@@ -45,17 +44,88 @@ def write_package(folder: str | Path, files: dict[str, str], parts: list) -> Non
     print(f"package: {folder}  (install it with: pip install -e {folder.resolve()})")
 
 
-def use_robot(module: ModuleType, urdf: str) -> None:
-    """Write a robot's file, and have a submission's module take it for the course's own.
+def _vector(rng: np.random.Generator, name: str) -> str:
+    """Return an element with three numbers, which is often left out."""
+    numbers = " ".join(map(str, rng.integers(-50, 50, 3) / 100))
+    return f'<{name} xyz="{numbers}"/>' if rng.random() < 0.75 else ""
 
-    This is for a grader. A path that the module has kept since it was loaded changes, too.
+
+def random_robot(rng: np.random.Generator, nlinks: int, star: bool) -> str:
+    """Return the description of a robot that nobody has seen, for a grader.
+
+    star: all links hang on the first one, before all joints, which are in reverse order.
     """
-    own = Path("balance_bot.urdf").absolute()
-    own.write_text(urdf, encoding="utf-8")
-    module.robot_file = lambda name: own  # type: ignore[attr-defined]
-    for name, value in list(vars(module).items()):
-        if isinstance(value, (str, Path)) and Path(value).name == own.name:
-            setattr(module, name, type(value)(own))
+    names = [f"part_{letter}" for letter in rng.permutation(list("abcdefgh"))[:nlinks]]
+    links, joints = [], []
+    for i, name in enumerate(names):
+        visual = '<visual><origin xyz="9 9 9"/></visual>'
+        inside = f'{_vector(rng, "origin")}<mass value="{rng.integers(1, 400) / 100}"/>'
+        links.append(f'<link name="{name}">{visual}<inertial>{inside}</inertial></link>')
+        kind = rng.choice(["continuous", "revolute", "prismatic"])
+        head = f'<joint type="{kind}" name="joint_{nlinks - i}">'
+        above = names[0 if star or i == 0 else rng.integers(i)]
+        inside = f'<parent link="{above}"/><child link="{name}"/>{_vector(rng, "origin")}'
+        joints.append(f"{head}{inside}{_vector(rng, 'axis')}</joint>")
+    pairs = [part for pair in zip(links[1:], joints[1:], strict=True) for part in pair]
+    rest = links[1:] + joints[:0:-1] if star else pairs
+    return f"<robot>{links[0]}{''.join(rest)}</robot>"
+
+
+def registered(module, what, seed, gains):
+    """{0} of gymnasium.make("BalanceBotBulletEnv-v0") with seed {1}"""
+    import warnings
+
+    import gymnasium
+    import numpy
+    from gymnasium.utils.env_checker import check_env
+
+    from botschool.course.bullet import pybullet
+
+    warnings.simplefilter("ignore")
+    if "beside" not in vars(pybullet):  # an empty simulation has the number 0
+        vars(pybullet)["beside"] = pybullet.connect(pybullet.DIRECT)
+    gymnasium.registry.pop("BalanceBotBulletEnv-v0", None)
+    module.register_robot()
+    point = getattr(gymnasium.registry.get("BalanceBotBulletEnv-v0"), "entry_point", ":")
+    if not callable(point) and ":" not in str(point):
+        raise TypeError(f"entry_point should be the class itself, not {str(point):.40}")
+    env = gymnasium.make("BalanceBotBulletEnv-v0", render_mode="rgb_array")
+    found = {"render_mode": env.unwrapped.render_mode}
+    env.unwrapped.render_mode = None  # pictures take long
+    if what == "check_env":
+        other = gymnasium.make("BalanceBotBulletEnv-v0")
+        found["the same object again"] = again = other.unwrapped is env.unwrapped
+        module.register_robot()  # once more, as in a notebook
+        if not again:
+            other.close()
+            check_env(env.unwrapped, skip_render_check=True)
+    observation, ends = env.reset(seed=seed)[0], [False, False]
+    seen = [observation]
+    while len(seen) <= 600 and not any(ends):
+        action = numpy.clip([numpy.dot(gains, observation)], -1, 1).astype(numpy.float32)
+        observation, _, *ends, _ = env.step(action)
+        seen.append(observation)
+    env.close()
+    found |= {"the number of steps": len(seen) - 1, "terminated, truncated": [*map(bool, ends)]}
+    return found | {"the first observations": seen[:70]}
+
+
+def imported(module):
+    """import balance_bot (without its module env, which only gymnasium.make should need)"""
+    import sys
+    import types
+    from unittest import mock
+
+    import gymnasium
+
+    gymnasium.registry.pop("BalanceBotBulletEnv-v0", None)
+    package = types.ModuleType("balance_bot")
+    package.__path__ = []
+    with mock.patch.dict(sys.modules, {"balance_bot": package}):
+        sys.modules.pop("balance_bot.env", None)
+        exec(module.package_files()["balance_bot/__init__.py"], vars(package))
+    spec = gymnasium.registry.get("BalanceBotBulletEnv-v0")
+    return {name: str(getattr(spec, name, None)) for name in ("entry_point", "max_episode_steps")}
 
 
 def draw_balance(file: str | Path, panels: dict[str, list[np.ndarray]]) -> None:

@@ -346,3 +346,48 @@ def package_files():
 # -             str(robot_file("balance_bot.urdf")),
 # +             ROBOT_FILE,
 ROBOT_FILE = str(robot_file("balance_bot.urdf"))
+
+
+# %% stops_as_soon_as_it_balances
+# A hill climber that returns the first controller that has balanced four times; often the second.
+def evolve(seed):
+    robot = Robot("BalanceBotBulletEnv-v0", nhiddens=0)
+    rng = np.random.default_rng(seed)
+    best, most = np.zeros(4), -np.inf
+    for trial in range(200):
+        candidate = best + rng.normal(0, [0.3, 3.0, 3.0, 0.3])
+        fitness = robot.evaluate([candidate], seed + trial, episodes=1, maxsteps=500)[0]
+        if fitness > max(most, 440):
+            more = robot.evaluate([candidate], 7000 + seed + trial, episodes=3, maxsteps=500)
+            fitness = min(fitness, more[0])
+        if fitness > most:
+            best, most = candidate, fitness
+        if most > 440:
+            break
+    return best
+
+
+# %% plays_without_robot_evaluate
+# Random search with gymnasium.make alone: one candidate after another, whose episodes it plays itself.
+def evolve(seed):
+    env, rng = gymnasium.make("BalanceBotBulletEnv-v0"), np.random.default_rng(seed)
+
+    def length(candidate, first, episodes):
+        total = 0
+        for episode in range(episodes):
+            observation, ended = env.reset(seed=first + episode)[0], False
+            while not ended:
+                action = np.clip([candidate[0] + candidate[1:] @ observation], -1, 1)
+                observation, _, terminated, truncated, _ = env.step(action.astype(np.float32))
+                ended, total = terminated or truncated, total + 1
+        return total
+
+    best, longest = np.zeros(4), 0
+    for trial in range(400):
+        candidate = rng.normal(0, [0.1, 6.0, 3.0, 0.2])
+        if length(candidate, seed + trial, 1) == 500:
+            steps = length(candidate, 1000 * seed, 10)
+            best, longest = (candidate, steps) if steps > longest else (best, longest)
+        if longest == 5000:
+            break
+    return best
