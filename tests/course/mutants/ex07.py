@@ -3,14 +3,14 @@
 
 # %% angle_mirrored loses 7.1
 # Gives np.arctan2(cosine, sine) as the angle instead of np.arctan2(sine, cosine).
-# says: Cosine and sine are exchanged
+# says: this
 # -     angle = np.arctan2(observation[..., 1], observation[..., 0])
 # +     angle = np.arctan2(observation[..., 0], observation[..., 1])
 
 
 # %% angle_of_cosine loses 7.1
 # Gives an angle between 0 and pi, as np.arccos(cosine) does, but it should be negative where the sine is negative.
-# says: Only the sign
+# says: this
 def to_state(observation):
     observation = np.asarray(observation, dtype=float)
     return np.stack([np.arccos(observation[..., 0]), observation[..., 2]], axis=-1)
@@ -38,7 +38,7 @@ def record(controller, seed, steps):
 
 # %% recording_without_start loses 7.2
 # Leaves out the state after the reset, but the recording should begin with it.
-# says: one too few|one is missing
+# says: this
 _record = record
 
 
@@ -48,14 +48,14 @@ def record(controller, seed, steps):
 
 # %% arrows_leap loses 7.3
 # Gives the plain difference of the angles even where it is beyond -pi or pi, but the short way around is asked for.
-# says: whole turns of 2 pi
+# says: this
 def arrows(before, after):
     return np.hstack([before, after - before])
 
 
 # %% arrows_to_ends loses 7.3
 # Gives where each arrow ends (before plus change) instead of the change.
-# says: hold where the arrows end
+# says: this
 _arrows = arrows
 
 
@@ -87,7 +87,7 @@ def next_states(controller, states):
 
 # %% grid_without_end loses 7.4
 # Leaves out the upper ends pi and 8, but the angles and the velocities should include both of their ends.
-# says: leaves out its upper ends
+# says: this
 def grid(nangles, nvelocities):
     angles = np.linspace(-np.pi, np.pi, nangles, endpoint=False)
     velocities = np.linspace(-8, 8, nvelocities, endpoint=False)
@@ -104,7 +104,7 @@ def grid(nangles, nvelocities):
 
 # %% keeps_best_so_far loses 7.5
 # Keeps the best candidate of all generations so far, but the best one of the kept generation alone is asked for.
-# says: the best candidate so far
+# says: this
 def evolve(algorithm, evaluate, generations, every):
     kept, parameters, history, record_fitness = [], [], [], -np.inf
     for generation in range(generations):
@@ -122,7 +122,7 @@ def evolve(algorithm, evaluate, generations, every):
 
 # %% last_generation_missing loses 7.5
 # Leaves out the last generation if its number is not a multiple of `every`, but the last one should always be kept.
-# says: The last one is missing
+# says: this
 _evolve = evolve
 
 
@@ -135,7 +135,7 @@ def evolve(algorithm, evaluate, generations, every):
 
 # %% stages_not_copied loses 7.5
 # Returns rows of the last generation's candidates for all stages: the algorithm uses its array again, so a copy should be kept (.copy()).
-# says: keep a copy of a candidate \(.copy\(\)\)
+# says: this
 # -             parameters.append(candidates[best].copy())
 # +             parameters.append(candidates[best])
 
@@ -261,7 +261,7 @@ def draw_portraits(file, titles, fields, paths):
 
 # %% controller_asked_twice loses 7.2
 # Asks the controller twice in each step, but it should be asked once.
-# says: asked once in each step
+# says: this
 # -         observation, _, terminated, truncated, _ = env.step(controller(observation))
 # +         if np.all(np.isfinite(controller(observation))):
 # +             observation, _, terminated, truncated, _ = env.step(controller(observation))
@@ -284,14 +284,14 @@ def draw_portraits(file, titles, fields, paths):
 
 # %% evaluates_twice loses 7.5
 # Calls evaluate twice in each generation, but one call is asked for.
-# says: once for each
+# says: this
 # -         history.append(float(fitness[best]))
 # +         history.append(float(np.max(evaluate(candidates, generation))))
 
 
 # %% middle_is_mixed loses 7.6
 # Mixes the middle stage with the last one, but candidates should be returned as they were evaluated.
-# says: was never evaluated
+# says: as they were evaluated
 _chosen = three_stages
 
 
@@ -302,7 +302,7 @@ def three_stages(seed):
 
 # %% one_evolution_for_all_seeds loses 7.6
 # Returns the stages of seed 1 for every seed, but another seed should give another evolution.
-# says: begins with the same candidates as with another seed
+# says: begin with other candidates
 _chosen = three_stages
 
 
@@ -381,7 +381,7 @@ def three_stages(seed):
 
 # %% seed_of_the_algorithm_fixed loses 7.6
 # Gives the algorithm seed 1 for every seed, so that all evolutions begin alike, but everything random should follow from the seed.
-# says: should follow from the seed
+# says: begin with other candidates
 # -     parameters = evolve(openai_es(robot, seed), evaluate, generations=600, every=5)["parameters"]
 # +     parameters = evolve(openai_es(robot, 1), evaluate, generations=600, every=5)["parameters"]
 
@@ -403,7 +403,7 @@ def three_stages(seed):
 
 # %% path_below_the_field loses 7.7
 # Draws the field over the paths, but the paths should lie above the field.
-# says: should lie above the field
+# says: should lie above
 # -         axes.quiver(*field.T, color="#a8b4c0", width=0.0035, **exact)
 # -         axes.quiver(*path.T, color="#d55e00", width=0.005, **exact)
 # +         axes.quiver(*path.T, color="#d55e00", width=0.005, **exact)
@@ -418,21 +418,21 @@ def three_stages(seed):
 
 # %% wider_axes loses 7.7
 # Lets the axes go beyond -pi to pi and -8 to 8, but each panel should show exactly these.
-# says: exactly -pi
+# says: panels end at -pi
 # -         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
 # +         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-3.5, 3.5), ylim=(-9, 9))
 
 
 # %% titles_forgotten loses 7.7
 # Leaves out the titles, but titles[i] should stand above panel i.
-# says: above panel
+# says: belongs to panel i
 # -         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
 # +         axes.set(xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
 
 
 # %% first_title_everywhere loses 7.7
 # Writes titles[0] above every panel instead of titles[i] above panel i.
-# says: above panel
+# says: belongs to panel i
 # -         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
 # +         axes.set(title=titles[0], xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
 
@@ -511,35 +511,35 @@ def three_stages(seed):
 
 # %% tells_minus_the_fitness loses 7.5
 # Tells the algorithm minus the fitness, but the fitness itself is asked for.
-# says: told minus the fitness
+# says: this
 # -         algorithm.tell(fitness)
 # +         algorithm.tell(-fitness)
 
 
 # %% generations_from_one loses 7.5
 # Keeps the generations every - 1, 2 * every - 1, ... instead of 0, every, 2 * every, ...
-# says: counted from 1
+# says: this
 # -         if generation % every == 0 or generation == generations - 1:
 # +         if (generation + 1) % every == 0 or generation == generations - 1:
 
 
 # %% angles_without_end loses 7.4
 # Leaves out the upper end pi of the angles, but both ends should be included.
-# says: The angles leave out
+# says: this
 # -     angles = np.linspace(-np.pi, np.pi, nangles)
 # +     angles = np.linspace(-np.pi, np.pi, nangles, endpoint=False)
 
 
 # %% stages_in_reverse loses 7.6
 # Returns the last stage first and the first one last, but they should be in the order of the evolution.
-# says: order of the evolution
+# says: evaluated first
 # -     return parameters[[0, middle, best]]
 # +     return parameters[[best, middle, 0]]
 
 
 # %% observation_of_another_reset loses 7.4
 # Gives the controller the observation of the last step (at first that of the reset) instead of that of the given state.
-# says: what the step before led to
+# says: another answer: by chance
 # -     env.reset()
 # -     following = []
 # +     observation, _ = env.reset()
@@ -551,7 +551,7 @@ def three_stages(seed):
 
 # %% columns_for_rows loses 7.1
 # Takes the rows of an array of shape (n, 3) for cosines, sines and velocities, but these are its columns.
-# says: unpacked along its first axis
+# says: this
 # -     observation = np.asarray(observation, dtype=float)
 # -     angle = np.arctan2(observation[..., 1], observation[..., 0])
 # -     return np.stack([angle, observation[..., 2]], axis=-1)
@@ -561,7 +561,7 @@ def three_stages(seed):
 
 # %% next_states_for_the_changes loses 7.7
 # Draws each arrow as long as the numbers of the next state, but it should be as long as its change.
-# says: as long as the numbers of the next state
+# says: but covers
 # -         axes.quiver(*field.T, color="#a8b4c0", width=0.0035, **exact)
 # -         axes.quiver(*path.T, color="#d55e00", width=0.005, **exact)
 # +         field, path = (np.hstack([a[:, :2], a[:, :2] + a[:, 2:]]) for a in (field, path))
@@ -571,28 +571,28 @@ def three_stages(seed):
 
 # %% velocities_downwards loses 7.7
 # Lets the velocities grow downwards, but they should grow upwards.
-# says: velocities should grow upwards
+# says: but covers
 # -         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
 # +         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(8, -8))
 
 
 # %% middle_of_the_arrow_in_its_state loses 7.7
 # Puts the middle of each arrow into its state, but it should begin there.
-# says: Their middle is in their state
+# says: but covers
 # -     exact = {"angles": "xy", "scale_units": "xy", "scale": 1}
 # +     exact = {"angles": "xy", "scale_units": "xy", "scale": 1, "pivot": "mid"}
 
 
 # %% length_of_its_own loses 7.7
 # Lets matplotlib choose the lengths of the arrows, but each should end exactly in the next state.
-# says: Each arrow should be as long as its change
+# says: but covers
 # -     exact = {"angles": "xy", "scale_units": "xy", "scale": 1}
 # +     exact = {"angles": "xy"}
 
 
 # %% angles_upwards loses 7.7
 # Draws the angles upwards and the velocities from left to right instead of the other way round.
-# says: Angles and velocities are exchanged
+# says: but covers
 # -         axes.quiver(*field.T, color="#a8b4c0", width=0.0035, **exact)
 # -         axes.quiver(*path.T, color="#d55e00", width=0.005, **exact)
 # -         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
@@ -603,35 +603,35 @@ def three_stages(seed):
 
 # %% turns_from_zero loses 7.3
 # Puts the changes of the angle between 0 and 2 pi instead of between -pi and pi.
-# says: lie between 0 and 2 pi
+# says: this
 # -     change[:, 0] = (change[:, 0] + np.pi) % (2 * np.pi) - np.pi
 # +     change[:, 0] = change[:, 0] % (2 * np.pi)
 
 
 # %% half_turns loses 7.3
 # Puts the changes of the angle between -pi / 2 and pi / 2, as if a whole turn were pi, but it is 2 pi.
-# says: a whole turn is 2 pi
+# says: this
 # -     change[:, 0] = (change[:, 0] + np.pi) % (2 * np.pi) - np.pi
 # +     change[:, 0] = (change[:, 0] + np.pi / 2) % np.pi - np.pi / 2
 
 
 # %% changes_cut_off loses 7.3
 # Cuts off the changes of the angle at -pi and pi instead of taking the short way around.
-# says: are cut off there
+# says: this
 # -     change[:, 0] = (change[:, 0] + np.pi) % (2 * np.pi) - np.pi
 # +     change[:, 0] = np.clip(change[:, 0], -np.pi, np.pi)
 
 
 # %% angles_from_zero loses 7.4
 # Lets the angles of the grid go from 0 to 2 pi instead of from -pi to pi.
-# says: The angles go from 0 to 2 pi
+# says: this
 # -     angles = np.linspace(-np.pi, np.pi, nangles)
 # +     angles = np.linspace(0, 2 * np.pi, nangles)
 
 
 # %% rows_after_the_end loses 7.2
 # Adds rows of zeros if the episode ends before `steps` steps, but only the states of the episode are asked for.
-# says: the environment ends the episode after
+# says: this
 _record_7 = record
 
 
@@ -655,7 +655,7 @@ def next_states(controller, states):
 
 # %% amount_of_the_short_way loses 7.3
 # Replaces a change of the angle beyond -pi or pi by 2 pi minus its amount, but for one above pi the short way around is negative.
-# says: becomes 2 pi minus its amount
+# says: this
 # -     change[:, 0] = (change[:, 0] + np.pi) % (2 * np.pi) - np.pi
 # +     amount = np.abs(change[:, 0])
 # +     change[:, 0] = np.where(amount > np.pi, 2 * np.pi - amount, change[:, 0])
@@ -719,28 +719,28 @@ def next_states(controller, states):
 
 # %% angle_of_the_sine_alone loses 7.1
 # Gives np.arcsin(sine) as the angle, but this is always between -pi / 2 and pi / 2: the cosine should count, too.
-# says: arcsin\(sine\)
+# says: this
 # -     angle = np.arctan2(observation[..., 1], observation[..., 0])
 # +     angle = np.arcsin(observation[..., 1])
 
 
 # %% panels_in_a_column loses 7.7
 # Puts the panels one below the other instead of side by side.
-# says: one below the other
+# says: whatever is drawn
 # -     panels = figure.subplots(1, len(titles), squeeze=False, sharey=True)[0]
 # +     panels = figure.subplots(len(titles), 1, squeeze=False, sharey=True)[:, 0]
 
 
 # %% first_arrow_of_a_path_only loses 7.7
 # Draws only the first arrow of each path, but all of them are asked for.
-# says: nothing of them is seen
+# says: hardly seen
 # -         axes.quiver(*path.T, color="#d55e00", width=0.005, **exact)
 # +         axes.quiver(*path[:1].T, color="#d55e00", width=0.005, **exact)
 
 
 # %% arrows_five_times_as_long loses 7.7
 # Draws each arrow five times as long as its change, but it should end exactly in the next state.
-# says: 5 times as long as their change
+# says: but covers
 # -     exact = {"angles": "xy", "scale_units": "xy", "scale": 1}
 # +     exact = {"angles": "xy", "scale_units": "xy", "scale": 0.2}
 
@@ -848,6 +848,6 @@ def next_states(controller, states):
 # +         observations.append(observation)
 # %% width_for_four_panels loses 7.7
 # Makes the picture 1200 pixels wide whatever the number of panels, but each panel should be at least 300 pixels wide.
-# says: but at least 2100 x 300
+# says: needs at least 2100 x 300
 # -     figure = Figure(figsize=(4.0 * len(titles), 4.2), layout="constrained")
 # +     figure = Figure(figsize=(12, 4), layout="constrained")
