@@ -14,7 +14,7 @@ from botschool.grading.run.ours import Answer
 from botschool.sandbox.protocol import NotPlain, pack, unpack
 
 SECONDS = 3
-"""Seconds for all checks of a task; a slip that takes longer is caught."""
+"""Processor seconds for all checks of a task; a slip that takes longer is caught."""
 
 
 class Slow(BaseException):
@@ -85,8 +85,8 @@ def problem(task, text):
     def end(*_):
         raise Slow
 
-    signal.signal(signal.SIGALRM, end)
-    signal.alarm(SECONDS)
+    signal.signal(signal.SIGVTALRM, end)
+    signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS)
     quiet = io.StringIO()
     try:
         with contextlib.redirect_stdout(quiet), contextlib.redirect_stderr(quiet):
@@ -97,4 +97,4 @@ def problem(task, text):
     except (Exception, Slow, SystemExit) as error:
         return str(error) or repr(error)
     finally:
-        signal.alarm(0)
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
