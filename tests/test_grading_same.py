@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+import textwrap
 import time
 from pathlib import Path
 
@@ -282,8 +283,22 @@ def test_after_a_time_out_a_function_is_not_called_again(graded):
     start = time.process_time()
     passed, messages = graded("def mixed(*a):\n    while True: pass")
     assert not passed["4.1"] and sum(passed.values()) == 4
-    assert "did not return within 2 seconds" in messages["4.1"]
+    assert "did not return within 5 seconds" in messages["4.1"]
     assert time.process_time() - start < 15
+
+
+def test_a_call_may_import_a_package(graded):
+    text = """
+        import time
+        begun, _mixed = time.process_time(), mixed
+
+        def mixed(*arguments):
+            while time.process_time() < begun + 3:
+                pass
+            return _mixed(*arguments)
+    """
+    passed, messages = graded(textwrap.dedent(text))
+    assert passed["4.1"], messages
 
 
 def test_of_two_mistakes_one_is_named(tmp_path, server):

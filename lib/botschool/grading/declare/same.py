@@ -49,8 +49,8 @@ BASES, OF_A_DRIVER = 2, 1
 """Inputs of a check, the smallest ones, from which more are made."""
 QUICK = 0.05
 """Processor seconds of our answer to an input from which more are made."""
-PATIENCE, SLOWER = 2.0, 20.0
-"""Seconds that a call may take, and how many times as long as ours beyond them."""
+PATIENCE, SLOWER = 5.0, 20.0
+"""Seconds that a call may take, which may import a package, and how many times as long as ours."""
 SHORT = 110
 """Characters of a call that is shown as Python."""
 SINGLE = 1e-4
