@@ -12,7 +12,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 # %% ends_ignored loses 13.1
 # Ignores the ends of episodes: values and TD errors of the next episode count for the steps before its start.
-# says: Ends of episodes on the way .* are left out
+# says: this
 _advantages = advantages
 
 
@@ -23,7 +23,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 # %% lambda_forgotten loses 13.1
 # Leaves out gae_lambda: later TD errors are multiplied by gamma alone at each step, but should be by gamma * gae_lambda.
-# says: gae_lambda is left out
+# says: this
 _advantages = advantages
 
 
@@ -42,7 +42,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 # %% last_value_forgotten loses 13.1
 # Leaves out the value of what comes after the last step, but where dones is 0, last_values should count there.
-# says: \(last_values\) is left out
+# says: this
 _advantages = advantages
 
 
@@ -61,49 +61,49 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 # %% errors_leak loses 13.1
 # Adds the TD errors of the next episode to the advantages of the one before, but where n_t is 0 they should be left out.
-# says: TD errors leak over ends
+# says: this
 # -         following = error + gamma * gae_lambda * goes_on * following
 # +         following = error + gamma * gae_lambda * following
 
 
 # %% values_leak loses 13.1
 # Adds the next value to the TD error even where the episode ended, but where n_t is 0 it should be left out.
-# says: Values leak over ends
+# says: this
 # -         error = rewards[t] + gamma * goes_on * next_values - values[t]
 # +         error = rewards[t] + gamma * next_values - values[t]
 
 
 # %% ends_bootstrapped loses 13.1
 # Adds gamma times the value where episodes ended by themselves, too, but only those that the time limit cut should get it.
-# says: Ends are bootstrapped as well
+# says: this
 def bootstrapped(rewards, terminated, truncated, final_values, gamma):
     return rewards + gamma * np.maximum(terminated, truncated) * final_values
 
 
 # %% both_bootstrapped loses 13.1
 # Adds gamma times the value in steps that are both terminated and truncated, but an episode that ended by itself should get nothing.
-# says: both terminated and truncated
+# says: this
 def bootstrapped(rewards, terminated, truncated, final_values, gamma):
     return rewards + gamma * truncated * final_values
 
 
 # %% undiscounted_bootstrap loses 13.1
 # Adds the critic's value without multiplying it by gamma.
-# says: gamma is left out
+# says: this
 def bootstrapped(rewards, terminated, truncated, final_values, gamma):
     return rewards + truncated * (1 - terminated) * final_values
 
 
 # %% never_bootstrapped loses 13.1
 # Returns the rewards as they are, but where time ran out gamma times the critic's value should be added.
-# says: Nothing is added
+# says: this
 def bootstrapped(rewards, terminated, truncated, final_values, gamma):
     return np.array(rewards)
 
 
 # %% bootstrapped_in_place loses 13.1
 # Changes the array of rewards that it is given, but should make a new one.
-# says: has changed the rewards
+# says: changed its argument
 def bootstrapped(rewards, terminated, truncated, final_values, gamma):
     rewards += gamma * truncated * (1 - terminated) * final_values
     return rewards
@@ -162,7 +162,7 @@ def policy_loss(log_prob, old_log_prob, advantages, clip_range):
 
 # %% not_normalised loses 13.2
 # Takes the advantages as they are, but in a batch of more than one step they should be normalised.
-# says: not normalised
+# says: this
 def policy_loss(log_prob, old_log_prob, advantages, clip_range):
     ratio = np.exp(log_prob - old_log_prob)
     clipped = np.clip(ratio, 1 - clip_range, 1 + clip_range)
@@ -183,7 +183,7 @@ def policy_loss(log_prob, old_log_prob, advantages, clip_range):
 
 # %% sign_of_the_loss loses 13.2
 # Returns the loss with the opposite sign, but it should be minus the mean of the smaller products.
-# says: Only the sign
+# says: this
 _policy_loss = policy_loss
 
 
@@ -202,23 +202,16 @@ def policy_loss(log_prob, old_log_prob, advantages, clip_range):
     return {**found, "loss": 0.0} if len(advantages) == 1 else found
 
 
-# %% limit_counts_as_clipped loses 13.2
-# Counts in clip_fraction also ratios that are exactly clip_range away from 1, but only those that are farther should count.
-# says: only those that are farther
-# -         "clip_fraction": float(np.mean(np.abs(ratio - 1) > clip_range)),
-# +         "clip_fraction": float(np.mean(np.abs(ratio - 1) >= clip_range)),
-
-
 # %% zero_clips_nothing loses 13.3
 # Treats clip_range_vf=0 like None and clips nothing, but with 0 the values should not be allowed to move at all.
-# says: allows no movement
+# says: this
 # -     if clip_range_vf is not None:
 # +     if clip_range_vf:
 
 
 # %% half_the_square loses 13.3
 # Returns half the mean squared difference, but the whole mean squared difference is asked for.
-# says: half of what was expected
+# says: this
 _value_loss = value_loss
 
 
@@ -239,7 +232,7 @@ def value_loss(values, old_values, returns, clip_range_vf=None):
 
 # %% value_never_clipped loses 13.3
 # Ignores clip_range_vf and never clips, but the movement of the values away from old_values should be clipped.
-# says: is not clipped
+# says: this
 _value_loss = value_loss
 
 
@@ -249,7 +242,7 @@ def value_loss(values, old_values, returns, clip_range_vf=None):
 
 # %% entropy_in_bits loses 13.4
 # Takes logarithms to the base 2 instead of natural logarithms.
-# says: in bits
+# says: this
 _entropy_of_choices = entropy_of_choices
 
 
@@ -304,7 +297,7 @@ def approx_kl(log_prob, old_log_prob):
 
 # %% stops_after_the_update loses 13.5
 # Counts the update of the first batch whose divergence is too great, but this batch should make no update any more.
-# says: one more than expected
+# says: this
 _updates_made = updates_made
 
 
@@ -345,7 +338,7 @@ def updates_made(divergences, target_kl):
 
 # %% entropy_is_punished loses 13.6
 # Adds ent_coef times the mean entropy to the loss instead of subtracting it.
-# says: The entropy is added
+# says: this
 _total_loss = total_loss
 
 
@@ -391,13 +384,6 @@ def responses(activations, observations):
 # +     return result + values
 
 
-# %% no_discount loses 13.1
-# Leaves gamma out of the TD error: the next value is added without being multiplied by gamma.
-# says: this
-# -         error = rewards[t] + gamma * goes_on * next_values - values[t]
-# +         error = rewards[t] + goes_on * next_values - values[t]
-
-
 # %% standardised_over_the_rollout loses 13.1
 # Normalises the advantages (minus their mean, divided by their deviation), but they should be returned as they are.
 # says: this
@@ -423,13 +409,6 @@ def responses(activations, observations):
 # +     clipped = np.clip(ratio * advantages, 1 - clip_range, 1 + clip_range)
 # +     return {
 # +         "loss": float(-np.minimum(ratio * advantages, clipped).mean()),
-
-
-# %% sum_over_the_batch loses 13.2
-# Takes the sum of the smaller products over the batch as the loss, but their mean is asked for.
-# says: this
-# -         "loss": float(-np.minimum(ratio * advantages, clipped * advantages).mean()),
-# +         "loss": float(-np.minimum(ratio * advantages, clipped * advantages).sum()),
 
 
 # %% clipped_upwards_only loses 13.2
@@ -495,20 +474,6 @@ def responses(activations, observations):
 # +         made += len(epoch)
 
 
-# %% sum_of_the_entropies loses 13.6
-# Adds up the entropies of the batch instead of taking their mean.
-# says: this
-# -     return float(policy_loss + vf_coef * value_loss - ent_coef * np.mean(entropies))
-# +     return float(policy_loss + vf_coef * value_loss - ent_coef * np.sum(entropies))
-
-
-# %% coefficients_exchanged loses 13.6
-# Exchanges the coefficients: vf_coef should be the factor of the value loss, and ent_coef that of the entropy.
-# says: this
-# -     return float(policy_loss + vf_coef * value_loss - ent_coef * np.mean(entropies))
-# +     return float(policy_loss + ent_coef * value_loss - vf_coef * np.mean(entropies))
-
-
 # %% squared_error_for_variance loses 13.6
 # Takes the mean of (returns - values) ** 2 instead of the variance of returns - values, so a constant error makes the result smaller.
 # says: this
@@ -521,13 +486,6 @@ def responses(activations, observations):
 # says: this
 # -     return float(1 - np.var(returns - values) / np.var(returns))
 # +     return max(0.0, float(1 - np.var(returns - values) / np.var(returns)))
-
-
-# %% without_biases loses 13.7
-# Leaves out the biases b, but tanh(W x + b) is asked for.
-# says: this
-# -         observations = np.tanh(observations @ np.asarray(weights).T + biases)
-# +         observations = np.tanh(observations @ np.asarray(weights).T)
 
 
 # %% last_layer_only loses 13.7
@@ -612,14 +570,6 @@ def responses(activations, observations):
 # Leaves the mean in the advantages and only divides them by their standard deviation, but the mean should be subtracted first.
 # -         advantages = (advantages - advantages.mean()) / (advantages.std(ddof=1) + 1e-8)
 # +         advantages = advantages / (advantages.std(ddof=1) + 1e-8)
-# %% larger_product loses 13.2
-# Takes the larger one of the two products instead of the smaller one.
-# -         "loss": float(-np.minimum(ratio * advantages, clipped * advantages).mean()),
-# +         "loss": float(-np.maximum(ratio * advantages, clipped * advantages).mean()),
-# %% movement_from_the_new_value loses 13.3
-# Adds the clipped movement to the new values instead of the old ones.
-# -         predictions = old_values + np.clip(values - old_values, -clip_range_vf, clip_range_vf)
-# +         predictions = values + np.clip(values - old_values, -clip_range_vf, clip_range_vf)
 # %% absolute_error loses 13.3
 # Takes the mean absolute difference instead of the mean squared difference.
 # -     return float(np.mean((returns - predictions) ** 2))
@@ -637,10 +587,6 @@ def responses(activations, observations):
 # -             made += 1
 # +             pass
 # +         made += 1
-# %% variance_of_the_values loses 13.6
-# Divides by the variance of the values instead of that of the returns.
-# -     return float(1 - np.var(returns - values) / np.var(returns))
-# +     return float(1 - np.var(returns - values) / np.var(values))
 # %% value_loss_halved loses 13.6
 # Halves the value loss before it is added, but it should only be multiplied by vf_coef.
 # -     return float(policy_loss + vf_coef * value_loss - ent_coef * np.mean(entropies))
@@ -667,7 +613,7 @@ def responses(activations, observations):
 
 # %% stop_ends_the_epoch loses 13.8
 # Ends only the epoch with its early stop, but this should end all training on the rollout, the later epochs, too.
-# says: end all epochs of a rollout
+# says: this
 # -         orders = [rng.permutation(ended.size) for _ in range(h.n_epochs)]
 # -         for rows in np.concatenate(orders).reshape(-1, h.batch_size):
 # -             batch = ppo.minibatch(rows)
@@ -688,7 +634,7 @@ def responses(activations, observations):
 
 # %% time_runs_on loses 13.8
 # Lets an episode that the time limit cut (ended is 2) go on into the next one in the advantages, but it should end there like any other.
-# says: both episodes of the rollout end because time runs out
+# says: this
 # -         ended = (rollout.ended > 0).astype(float)
 # +         ended = (rollout.ended == 1).astype(float)
 
@@ -752,7 +698,7 @@ def responses(activations, observations):
 
 # %% first_step_for_the_last loses 13.8
 # Leaves out whether the last step of the rollout ended its episode, but dones should be 1 where it did.
-# says: both episodes of the rollout end because time runs out
+# says: this
 # -             rollout.rewards, rollout.values, starts, rollout.last_values, ended[-1],
 # +             rollout.rewards, rollout.values, starts, rollout.last_values, ended[0],
 
@@ -774,7 +720,7 @@ def entropy_of_choices(scores):
 
 # %% all_layers_after_the_first loses 13.7
 # Feeds the activations of the first layer into all later layers instead of those of the layer before.
-# says: Layer 3 gets the activations of layer 1
+# says: this
 # -         observations = np.tanh(observations @ np.asarray(weights).T + biases)
 # -         activations.append(observations)
 # +         before = activations[0] if activations else observations
@@ -809,7 +755,7 @@ def entropy_of_choices(scores):
 
 # %% returns_of_one_step loses 13.8
 # Writes rewards plus gamma times the next values into rollout.returns, but advantages plus values are asked for.
-# says: as returns rewards plus gamma times the next values
+# says: this
 # -         rollout.advantages[:], rollout.returns[:] = found, found + rollout.values
 # +         following = np.vstack([rollout.values[1:], rollout.last_values[None]])
 # +         rollout.advantages[:] = found
@@ -1192,7 +1138,7 @@ def entropy_of_choices(scores):
 
 # %% constant_by_allclose loses 13.7
 # Treats numbers that change by very little as if they never changed, but only numbers that are all equal never change.
-# says: all equal never change
+# says: this
 import numpy as np
 
 
@@ -1275,3 +1221,75 @@ def responses(activations, observations):
     with np.errstate(divide="ignore", invalid="ignore"):
         both = np.corrcoef(activations.T, observations.T)
     return np.nan_to_num(both[:neurons, neurons:])
+
+
+# %% starts_ignored loses 13.1
+# Leaves out the ends of episodes on the way (episode_starts) and counts only those of the last step (dones).
+# says: this
+# -         goes_on = 1 - (dones if last else episode_starts[t + 1])
+# +         goes_on = 1 - (dones if last else 0 * episode_starts[t + 1])
+
+
+# %% terminated_bootstrapped loses 13.1
+# Adds gamma times the value where an episode ended by itself, but it should be added where time ran out.
+# says: this
+# -     out_of_time = np.asarray(truncated) * (1 - np.asarray(terminated))
+# +     out_of_time = np.asarray(terminated)
+
+
+# %% clipped_around_0 loses 13.2
+# Clips the ratio to -clip_range ... clip_range, but 1 - clip_range ... 1 + clip_range is asked for.
+# says: this
+# -     clipped = np.clip(ratio, 1 - clip_range, 1 + clip_range)
+# +     clipped = np.clip(ratio, -clip_range, clip_range)
+
+
+# %% clipped_from_above loses 13.2
+# Clips only ratios above 1 + clip_range, but those below 1 - clip_range should be clipped, too.
+# says: this
+# -     clipped = np.clip(ratio, 1 - clip_range, 1 + clip_range)
+# +     clipped = np.minimum(ratio, 1 + clip_range)
+
+
+# %% clipped_from_below loses 13.2
+# Clips only ratios below 1 - clip_range, but those above 1 + clip_range should be clipped, too.
+# says: this
+# -     clipped = np.clip(ratio, 1 - clip_range, 1 + clip_range)
+# +     clipped = np.maximum(ratio, 1 - clip_range)
+
+
+# %% lower_limit_upside_down loses 13.2
+# Takes 1 / (1 + clip_range) for the lower limit of the ratio, but 1 - clip_range is asked for.
+# says: this
+# -     clipped = np.clip(ratio, 1 - clip_range, 1 + clip_range)
+# +     clipped = np.clip(ratio, 1 / (1 + clip_range), 1 + clip_range)
+
+
+# %% smaller_amount loses 13.2
+# Takes the product with the smaller absolute value, but signs should count, too.
+# says: this
+# -         "loss": float(-np.minimum(ratio * advantages, clipped * advantages).mean()),
+# +         "loss": float(
+# +             -np.where(
+# +                 abs(ratio * advantages) < abs(clipped * advantages),
+# +                 ratio * advantages,
+# +                 clipped * advantages,
+# +             ).mean()
+# +         ),
+
+
+# %% loop_with_rewards_as_returns loses 13.8
+# Writes the rewards into rollout.returns, but advantages plus values are asked for.
+# says: this
+# -         rollout.advantages[:], rollout.returns[:] = found, found + rollout.values
+# +         rollout.advantages[:], rollout.returns[:] = found, rollout.rewards
+
+
+# %% loop_with_discounted_sums loses 13.8
+# Writes the discounted sums of the later rewards into rollout.returns, but advantages plus values are asked for.
+# says: this
+# -         rollout.advantages[:], rollout.returns[:] = found, found + rollout.values
+# +         every = advantages(
+# +             rollout.rewards, rollout.values, starts, rollout.last_values, ended[-1], h.gamma, 1.0
+# +         )
+# +         rollout.advantages[:], rollout.returns[:] = found, every + rollout.values
