@@ -259,7 +259,9 @@ def what_hardly_changes(rng):
 
 
 # ------------------------------------------------------------------- 13.8
-looping = exercise.task("13.8", "Your own loop", needs=("13.1", "13.5"), refused=PPO_LOOP)
+looping = exercise.task(
+    "13.8", "Your own loop", seconds=30, needs=("13.1", "13.5"), refused=PPO_LOOP
+)
 OUT_OF_TIME = {"environment": "Pendulum-v1", "n_envs": 1, "n_steps": 400}
 """A rollout in which time runs out after 200 steps and with the last one."""
 
@@ -335,10 +337,10 @@ def a_seed(rng):
 @same(looping, 4, looped, 1e-4, view=first_result)
 def one_batch_an_epoch(rng):
     """A batch of all steps has no order, so the parameters are known."""
-    for steps, n_epochs, target in (
-        (512, 1, None), (512, 3, None), (1024, 2, None), (512, 6, 5e-4), (512, 8, 1e-3)
-    ):  # fmt: skip
-        yield [(a_seed(rng), 700)], steps, n_epochs, 512, target, {}
+    for steps, n_epochs in ((512, 1), (512, 3), (1024, 2)):
+        yield [(a_seed(rng), 700)], steps, n_epochs, 512, None, {}
+    for steps in (512, 1024):  # slowly, so that some divergence lies between 1 and 1.5 times it
+        yield [(a_seed(rng), 700)], steps, 14, 512, 1.5e-4, {"learning_rate": 5e-4}
     for n_epochs in (1, 2):
         yield [(a_seed(rng), 700)], 400, n_epochs, 400, None, OUT_OF_TIME
 

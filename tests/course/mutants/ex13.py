@@ -718,15 +718,6 @@ def entropy_of_choices(scores):
     return -(shares * np.log(shares)).sum(axis=1)
 
 
-# %% all_layers_after_the_first loses 13.7
-# Feeds the activations of the first layer into all later layers instead of those of the layer before.
-# says: this
-# -         observations = np.tanh(observations @ np.asarray(weights).T + biases)
-# -         activations.append(observations)
-# +         before = activations[0] if activations else observations
-# +         activations.append(np.tanh(before @ np.asarray(weights).T + biases))
-
-
 # %% a_single_rollout loses 13.8
 # Collects only one rollout, but should go on until ppo.steps is at least `steps`.
 # says: this
@@ -1080,7 +1071,7 @@ def responses(activations, observations):
     return c
 
 
-# %% return_behind_the_last_step_is_zero loses 13.1, 13.8
+# %% return_behind_the_last_step_is_zero loses 13.1
 # Counts last_values only 1 - gae_lambda times, as if the return behind the last step were 0, but where dones is 0 that return should be last_values.
 # says: this
 import numpy as np
