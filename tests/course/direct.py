@@ -5,8 +5,10 @@ It is not confined and has no processes, so it is a hundred times as fast as gra
 
 import contextlib
 import io
+import os
 import signal
 import sys
+import tempfile
 import types
 
 from botschool.grading.declare.checks import Wrong
@@ -87,9 +89,14 @@ def problem(task, text):
 
     signal.signal(signal.SIGPROF, end)
     signal.setitimer(signal.ITIMER_PROF, SECONDS)
-    quiet = io.StringIO()
+    quiet, before = io.StringIO(), os.getcwd()
     try:
-        with contextlib.redirect_stdout(quiet), contextlib.redirect_stderr(quiet):
+        with (
+            contextlib.redirect_stdout(quiet),
+            contextlib.redirect_stderr(quiet),
+            tempfile.TemporaryDirectory() as folder,
+        ):
+            os.chdir(folder)
             student = Direct(text)
             for _, _, check in task.checks:
                 check(student)
@@ -98,3 +105,4 @@ def problem(task, text):
         return str(error) or repr(error)
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
+        os.chdir(before)
