@@ -15,7 +15,7 @@ def train_variations(environment, variations, seeds, steps, *arguments, **option
 
 # %% params_forgotten loses 14.1
 # Trains every variation with the default hyperparameters instead of its own params.
-# says: has params \{\} instead of
+# says: this
 _train_variations = train_variations
 
 
@@ -25,7 +25,7 @@ def train_variations(environment, variations, *arguments, **options):
 
 # %% same_seed loses 14.1
 # Trains with the first seed every time instead of with each of the seeds.
-# says: has seed \d+ instead of
+# says: this
 _train_variations = train_variations
 
 
@@ -82,7 +82,7 @@ def read_indicators(folder):
 
 # %% best_episode loses 14.3
 # Takes the return of the best episode as "best", but the best mean return of a post-evaluation is asked for.
-# says: the best episode
+# says: this
 _success_of = success_of
 
 
@@ -107,7 +107,7 @@ def success_of(steps, returns, goal):
 
 # %% plain_average loses 14.3
 # Takes the plain mean of all post-evaluations as "average" instead of the area under the curve, divided by its width.
-# says: unequally far apart
+# says: this
 _success_of = success_of
 
 
@@ -128,7 +128,7 @@ def success_of(steps, returns, goal):
 
 # %% gain_over_the_worst loses 14.4
 # Subtracts the lowest mean for "gain" instead of the mean of the baseline.
-# says: over the worst variation
+# says: this
 _table_of = table_of
 
 
@@ -148,7 +148,7 @@ def table_of(runs, baseline):
 
 # %% population_deviation loses 14.4
 # Divides by the number of runs for "deviation", but it should divide by runs - 1 (ddof=1).
-# says: ddof=1
+# says: this
 _table_of = table_of
 
 
@@ -171,7 +171,7 @@ def table_of(runs, baseline):
 
 # %% equal_ones_left_out loses 14.5
 # Counts only differences greater than the real one, but equal ones should count, too.
-# says: equals the real one should count, too
+# says: this
 def chance_of(first, second):
     together, n = np.array([*first, *second], dtype=float), len(first)
     observed, hits = abs(np.mean(first) - np.mean(second)), []
@@ -184,7 +184,7 @@ def chance_of(first, second):
 
 # %% one_sided loses 14.5
 # Counts only differences in the direction of the real one, but both directions should count.
-# says: in one direction
+# says: this
 def chance_of(first, second):
     together, n = np.array([*first, *second], dtype=float), len(first)
     observed, hits = np.mean(first) - np.mean(second), []
@@ -251,7 +251,7 @@ def warning_signs(indicators, total, signs):
 
 # %% mean_of_all loses 14.7
 # Subtracts the mean of all trainings instead of that of the variant.
-# says: that of the variant should be
+# says: this
 def within_variants(numbers, variants):
     return np.round(np.asarray(numbers) - np.mean(numbers), 9)
 
@@ -267,7 +267,7 @@ def rank_correlation(first, second):
 
 # %% values_for_ranks loses 14.7
 # Correlates the numbers themselves instead of their ranks.
-# says: their ranks should be
+# says: this
 def rank_correlation(first, second):
     if np.ptp(first) == 0 or np.ptp(second) == 0:
         return 0.0
@@ -553,22 +553,10 @@ def warning_signs(indicators, total, signs):
 # +         solved = int(when)
 
 
-# %% median_for_mean loses 14.4
-# Takes the median of the returns instead of their mean.
-# -     means = {variant: np.mean(list(found.values())) for variant, found in results.items()}
-# +     means = {variant: np.median(list(found.values())) for variant, found in results.items()}
-
-
 # %% deviation_of_the_mean loses 14.4
 # Gives the standard error of the mean instead of the standard deviation.
 # -                 "deviation": float(np.std(values, ddof=1)) if len(values) > 1 else None,
 # +                 "deviation": float(np.std(values, ddof=1) / len(values) ** 0.5) if len(values) > 1 else None,
-
-
-# %% gain_turned_around loses 14.4
-# Subtracts the variation's mean from the baseline's, but the baseline's should be subtracted from the variation's.
-# -                 "gain": float(means[variant] - means[baseline]),
-# +                 "gain": float(means[baseline] - means[variant]),
 
 
 # %% sums_for_means loses 14.5
@@ -593,12 +581,6 @@ def warning_signs(indicators, total, signs):
 # Subtracts the median of the variation instead of its mean.
 # -     means = {name: numbers[names == name].mean() for name in set(variants)}
 # +     means = {name: np.median(numbers[names == name]) for name in set(variants)}
-
-
-# %% ends_where_the_last_ends loses 14.8
-# Ends the steps at the largest last step of a run, but they should end at the smallest.
-# -     end = min(curve["steps"][-1] for curve in curves)
-# +     end = max(curve["steps"][-1] for curve in curves)
 
 
 # %% starts_at_the_first loses 14.8
@@ -677,7 +659,7 @@ def within_variants(numbers, variants):
 
 # %% random_deals loses 14.5
 # Deals the results out at random many times, but every way should be counted exactly once.
-# says: multiple of
+# says: this
 # -     ways = np.array(list(combinations(range(n + m), n)))
 # +     rng = np.random.default_rng(0)
 # +     ways = np.array([rng.permutation(n + m)[:n] for _ in range(2000)])
@@ -773,7 +755,7 @@ def within_variants(numbers, variants):
 
 # %% variations_folder_in_the_record loses 14.1
 # Gives the folder of the whole variation as "folder" instead of that of the training, str(run.path).
-# says: the folder of the whole variation
+# says: this
 # -                 {"variant": name, "seed": seed, "return": result, "folder": str(run.path)}
 # +                 {"variant": name, "seed": seed, "return": result, "folder": f"{folder}/{name}"}
 
@@ -787,14 +769,14 @@ def within_variants(numbers, variants):
 
 # %% last_of_the_episodes loses 14.3
 # Takes the mean of the last column of `returns` as "last" instead of that of the last row: a row is a post-evaluation.
-# says: a row of returns is a post-evaluation
+# says: this
 # -         "last": float(means[-1]),
 # +         "last": float(np.mean(returns, axis=0)[-1]),
 
 
 # %% repeated_runs_counted loses 14.4
 # Counts every run of a variation in "runs", but several with the same seed should count as one.
-# says: with the same variant and seed should count as one
+# says: this
 # -                 "runs": len(values),
 # +                 "runs": sum(run["variant"] == variant for run in runs),
 
@@ -815,21 +797,21 @@ def within_variants(numbers, variants):
 
 # %% limit_gives_a_sign loses 14.6
 # Counts a mean that equals the limit as a sign, but it should give none.
-# says: although the mean of the last third equals the limit
+# says: this
 # -         if late is not None and (late > limit if side == "above" else late < limit):
 # +         if late is not None and (late >= limit if side == "above" else late <= limit):
 
 
 # %% argsort_for_ranks loses 14.7
 # Correlates positions as np.argsort gives them: these say where the smallest number stands, and so on, but are not ranks.
-# says: of the sorted numbers
+# says: this
 # -         ranks = smaller + (equal + 1) / 2
 # +         ranks = np.argsort(numbers) + 1.0 + 0 * (smaller + equal)
 
 
 # %% divided_by_the_deviation loses 14.7
 # Divides by the standard deviation of the variation, too, but only its mean should be subtracted.
-# says: only its mean should be subtracted
+# says: this
 def within_variants(numbers, variants, _within=within_variants):
     found, names = _within(numbers, variants), np.array(variants)
     sizes = {name: np.std(np.asarray(numbers)[names == name]) for name in set(variants)}
@@ -839,7 +821,7 @@ def within_variants(numbers, variants, _within=within_variants):
 
 # %% from_the_first_value_to_the_last_end loses 14.8
 # Takes the smallest first step and the largest last step of all runs, but the largest first and the smallest last are asked for.
-# says: this|should end at the smallest
+# says: this
 # -     start = max(curve["steps"][0] for curve in curves)
 # -     end = min(curve["steps"][-1] for curve in curves)
 # +     start = min(curve["steps"][0] for curve in curves)
@@ -886,7 +868,7 @@ def table_of(runs, baseline):
 
 # %% indicator_with_nan_left_out loses 14.2
 # Leaves out an indicator as a whole if one of its values is NaN, but only such entries should be left out.
-# says: this|Only its two NaN should
+# says: this
 # -     for name in log.Tags()["scalars"]:
 # -         entries = [entry for entry in log.Scalars(name) if not np.isnan(entry.value)]
 # +     for name in log.Tags()["scalars"]:
@@ -915,7 +897,7 @@ def table_of(runs, baseline):
 
 # %% nan_of_the_values_only loses 14.2
 # Leaves NaN out of "values" but keeps its step in "steps": both should be left out.
-# says: this|the two whose value is NaN should be left out
+# says: this
 # -             "steps": np.array([entry.step for entry in entries]),
 # +             "steps": np.array([entry.step for entry in log.Scalars(name)]),
 
@@ -1000,7 +982,7 @@ def table_of(runs, baseline):
 
 # %% deviation_zero_for_one loses 14.4
 # Gives 0 as the deviation of a single run, but None is asked for.
-# says: this|single run is 0 instead of None
+# says: this
 # -                 "deviation": float(np.std(values, ddof=1)) if len(values) > 1 else None,
 # +                 "deviation": float(np.std(values, ddof=1)) if len(values) > 1 else 0.0,
 
@@ -1120,7 +1102,7 @@ def table_of(runs, baseline):
 
 # %% end_of_the_log loses 14.6
 # Takes the last third of the steps up to the last entry, but the last third of all `total` steps is asked for.
-# says: this|was not logged in the last third
+# says: this
 # -         late = phase_means(logged["steps"], logged["values"], total, 3)[-1]
 # +         late = phase_means(logged["steps"], logged["values"], max(logged["steps"]), 3)[-1]
 
@@ -1173,48 +1155,16 @@ def table_of(runs, baseline):
 
 # %% zero_is_nothing loses 14.6
 # Gives no sign if the mean is exactly 0, but 0 is a number like any other.
-# says: a number like any other
+# says: this
 # -         if late is not None and (late > limit if side == "above" else late < limit):
 # +         if late and (late > limit if side == "above" else late < limit):
 
 
 # %% infinite_left_out loses 14.2
 # Leaves out infinite values, too, but only NaN should be left out.
-# says: only NaN
+# says: this
 # -         entries = [entry for entry in log.Scalars(name) if not np.isnan(entry.value)]
 # +         entries = [entry for entry in log.Scalars(name) if np.isfinite(entry.value)]
-
-
-# %% settings_updated_in_one_dict loses 14.1
-# Trains a variation with settings that only an earlier one has, but each should have only its own.
-# says: only its own settings
-from pathlib import Path
-
-from botschool.rl.training import train
-
-
-def train_variations(environment, variations, seeds, steps, folder, evaluations=8, episodes=5):
-    results = []
-    settings = {}
-    for variant in variations:
-        settings.update(variations[variant])
-        where = Path(folder) / variant
-        for s in seeds:
-            trained = train(
-                "ppo",
-                environment,
-                where,
-                params=dict(settings),
-                steps=steps,
-                seed=s,
-                evaluations=evaluations,
-                episodes=episodes,
-            )
-            found = trained.evaluations().last
-            results.append(
-                {"variant": variant, "seed": s, "return": found, "folder": str(trained.path)}
-            )
-    return results
 
 
 # %% solved_by_a_crossing loses 14.3
@@ -1288,14 +1238,6 @@ def chance_of(first, second):
     return hits / 2**pairs
 
 
-# %% last_third_of_the_log loses 14.6
-# Looks for signs in the last third of what was logged instead of the last third of the training.
-# -         late = phase_means(logged["steps"], logged["values"], total, 3)[-1]
-# +         if len(logged["steps"]) == 0:
-# +             continue
-# +         late = phase_means(logged["steps"], logged["values"], logged["steps"][-1], 3)[-1]
-
-
 # %% not_solved_at_step_0 loses 14.3
 # Passes over step 0, but if the goal is reached from step 0 on, "solved" should be 0.
 # says: this
@@ -1319,7 +1261,7 @@ def success_of(steps, returns, goal):
 
 # %% nothing_but_nan_is_missing loses 14.2
 # Leaves out an indicator that holds only NaN, but it should stay, with two empty arrays.
-# says: should stay, with two empty arrays
+# says: this
 # -         indicators[name] = {
 # -             "steps": np.array([entry.step for entry in entries]),
 # -             "values": np.array([entry.value for entry in entries]),
@@ -1346,7 +1288,7 @@ def success_of(steps, returns, goal):
 
 # %% nan_of_all_indicators_so_far loses 14.2
 # Leaves a step out of an indicator if an earlier indicator is NaN there, but only the entry that is NaN should be left out.
-# says: NaN at this step
+# says: this
 import math
 
 import numpy as np
@@ -1434,7 +1376,7 @@ def table_of(runs, baseline):
 
 # %% nan_for_nothing_but_nan loses 14.6
 # Gives NaN instead of None for a part that holds nothing but NaN.
-# says: nothing but NaN
+# says: this
 # -         these = values[inside & ~np.isnan(values)]
 # -         means.append(float(these.mean()) if len(these) else None)
 # +         these = values[inside]
@@ -1443,7 +1385,7 @@ def table_of(runs, baseline):
 
 # %% last_sign_of_an_indicator loses 14.6
 # Gives only the last of the signs of the same indicator, but each sign should count for itself.
-# says: another one of the same
+# says: this
 def warning_signs(indicators, total, signs):
     rules = {tag: (sign, side, limit) for sign, (tag, side, limit) in signs.items()}
     shown = set()
@@ -1547,3 +1489,109 @@ def at_equal_steps(groups, points):
 # Adds only the steps of this post-evaluation to "steps", but those of all post-evaluations until then should be added.
 # -         "steps": found.steps + found.lengths.sum(axis=1).cumsum(),
 # +         "steps": found.steps + found.lengths.sum(axis=1),
+
+
+# %% mean_of_all_post_evaluations loses 14.1
+# Reports the mean of all post-evaluations as "return", but that of the last one is asked for.
+# says: this
+# -             result = run.evaluations().last
+# +             result = float(run.evaluations().returns.mean())
+
+
+# %% first_post_evaluation loses 14.1
+# Reports the first post-evaluation as "return", but the last one is asked for.
+# says: this
+# -             result = run.evaluations().last
+# +             result = float(run.evaluations().returns[0].mean())
+
+
+# %% last_episode loses 14.1
+# Reports the return of the last episode, but the mean of the last post-evaluation is asked for.
+# says: this
+# -             result = run.evaluations().last
+# +             result = float(run.evaluations().returns[-1, -1])
+
+
+# %% range_for_deviation loses 14.4
+# Gives the highest return minus the lowest for "deviation", but the standard deviation is asked for.
+# says: this
+# -                 "deviation": float(np.std(values, ddof=1)) if len(values) > 1 else None,
+# +                 "deviation": float(np.ptp(values)) if len(values) > 1 else None,
+
+
+# %% gain_over_the_first loses 14.4
+# Subtracts the mean of the first variation in `runs` for "gain" instead of the mean of the baseline.
+# says: this
+# -                 "gain": float(means[variant] - means[baseline]),
+# +                 "gain": float(means[variant] - [*means.values()][0]),
+
+
+# %% gain_over_all loses 14.4
+# Subtracts the mean of all variations' means for "gain" instead of the mean of the baseline.
+# says: this
+# -                 "gain": float(means[variant] - means[baseline]),
+# +                 "gain": float(means[variant] - np.mean([*means.values()])),
+
+
+# %% gain_as_a_quotient loses 14.4
+# Divides the mean by that of the baseline for "gain", but their difference is asked for.
+# says: this
+# -                 "gain": float(means[variant] - means[baseline]),
+# +                 "gain": float(means[variant] / means[baseline]),
+
+
+# %% gain_without_sign loses 14.4
+# Gives "gain" without its sign, but it should be negative if a variation is worse than the baseline.
+# says: this
+# -                 "gain": float(means[variant] - means[baseline]),
+# +                 "gain": float(abs(means[variant] - means[baseline])),
+
+
+# %% equal_numbers_share_the_highest_rank loses 14.7
+# Gives equal numbers the highest of their ranks instead of the mean of their ranks.
+# says: this
+# -         ranks = smaller + (equal + 1) / 2
+# +         ranks = smaller + equal
+
+
+# %% no_gap_after_equal_numbers loses 14.7
+# Gives the next rank to the number after equal ones, as if these were one, but each should count.
+# says: this
+# -         ranks = smaller + (equal + 1) / 2
+# +         ranks = np.unique(numbers, return_inverse=True)[1]
+
+
+# %% next_value loses 14.8
+# Takes the next value after each step, but the last one at or before it is asked for.
+# says: this
+# -             last = np.searchsorted(curve["steps"], steps, side="right") - 1
+# +             last = np.searchsorted(curve["steps"], steps, side="right")
+# +             last = np.minimum(last, len(curve["steps"]) - 1)
+
+
+# %% nearest_value loses 14.8
+# Takes the value nearest to each step, but the last one at or before it is asked for.
+# says: this
+# -             last = np.searchsorted(curve["steps"], steps, side="right") - 1
+# +             last = abs(steps[:, None] - curve["steps"]).argmin(axis=1)
+
+
+# %% end_left_out loses 14.8
+# Leaves out the end itself, but it should be the last of the steps.
+# says: this
+# -     steps = np.linspace(start, end, points)
+# +     steps = np.linspace(start, end, points, endpoint=False)
+
+
+# %% steps_from_zero_on loses 14.8
+# Begins the steps at 0, but they should begin at the largest first step of a run.
+# says: this
+# -     steps = np.linspace(start, end, points)
+# +     steps = np.linspace(0, end, points)
+
+
+# %% whole_steps_only loses 14.8
+# Rounds the steps to whole numbers, but they should keep their fractions.
+# says: this
+# -     steps = np.linspace(start, end, points)
+# +     steps = np.linspace(start, end, points).round()
