@@ -3,7 +3,7 @@
 
 # %% softmax_over_everything loses 12.1
 # Divides by one sum over all rows, but each row should be divided by its own sum.
-# says: each row should be divided by its own
+# says: this
 def softmax(scores):
     powers = np.exp(np.asarray(scores, dtype=np.float64) - np.max(scores))
     return powers / powers.sum()
@@ -11,7 +11,7 @@ def softmax(scores):
 
 # %% softmax_overflows loses 12.1
 # Takes exponentials of large scores that a floating-point number cannot hold, but the largest score of each row should be subtracted first.
-# says: np.exp of a large number|infinity minus infinity
+# says: this
 def softmax(scores):
     with np.errstate(all="ignore"):
         powers = np.exp(np.asarray(scores, dtype=np.float64))
@@ -41,7 +41,7 @@ def choose(probabilities, rng):
 
 # %% last_reward_missing loses 12.3
 # Leaves out the reward of the step that ends the episode, but all rewards should be added up.
-# says: one less than expected
+# says: this
 # -             observation, reward, terminated, truncated, _ = env.step(action)
 # -             total += float(reward)
 # +             observation, reward, terminated, truncated, _ = env.step(action)
@@ -52,14 +52,14 @@ def choose(probabilities, rng):
 
 # %% counts_steps loses 12.3
 # Counts the steps instead of adding up the rewards.
-# says: The steps are counted
+# says: this
 # -             total += float(reward)
 # +             total += 1
 
 
 # %% negative_rewards_left_out loses 12.3
 # Adds up only the positive rewards, but negative ones count, too.
-# says: Negative rewards are left out
+# says: this
 # -             total += float(reward)
 # +             total += max(0.0, float(reward))
 
@@ -118,7 +118,7 @@ def run_episode(environment, act, seed, maxsteps=200):
 
 # %% records_the_next_observation loses 12.3
 # Leaves out the observation that reset returns, so that the others stand one row too early; what was seen before each step is asked for.
-# says: one place too early
+# says: this
 _run_episode = run_episode
 
 
@@ -139,7 +139,7 @@ def run_episode(environment, act, seed, maxsteps=200):
 
 # %% keeps_everything loses 12.4
 # Keeps all episodes, but only those with a return of at least the bound should be kept.
-# says: All episodes are kept
+# says: this
 _elite = elite
 
 
@@ -163,7 +163,7 @@ def elite(episodes, percentile):
 
 # %% gradient_cut_off loses 12.5
 # Gives the right loss, but a gradient of 0 for every score: torch should be able to follow the whole computation from the scores to the loss.
-# says: torch cannot follow the loss back|this
+# says: this
 _cross_entropy = cross_entropy
 
 
@@ -183,7 +183,7 @@ def cross_entropy(scores, actions):
 
 # %% summed_surprise loses 12.5
 # Adds up the surprises of all steps instead of taking their mean.
-# says: a sum for a mean
+# says: this
 _cross_entropy = cross_entropy
 
 
@@ -201,7 +201,7 @@ def cross_entropy(scores, actions):
 
 # %% gradients_pile_up loses 12.6
 # Adds the gradients of each update to all that were there before (zero_grad clears them), but each update should use its own gradients alone.
-# says: zero_grad
+# says: this
 # -         value = loss(network(inputs), wanted)
 # -         optimiser.zero_grad()
 # +         value = loss(network(inputs), wanted)
@@ -226,7 +226,7 @@ def gaussian_loss(means, log_deviation, actions):
 
 # %% variance_for_deviation loses 12.7
 # Multiplies the noise by exp(log_deviation / 2) instead of exp(log_deviation).
-# says: logarithm of the variance
+# says: this
 def gaussian_action(mean, log_deviation, rng):
     return mean + np.exp(log_deviation / 2) * rng.standard_normal(len(mean))
 
@@ -334,7 +334,7 @@ def train(environment, seed):
 
 # %% log_softmax_of_the_tensor loses 12.5
 # Uses the tensor's own log_softmax, but you should write this loss without it.
-# says: write it yourself: torch\.Tensor\.log_softmax
+# says: write it yourself
 def cross_entropy(scores, actions):
     return -scores.log_softmax(1)[torch.arange(len(actions)), actions].mean()
 
@@ -363,7 +363,7 @@ def gaussian_loss(means, log_deviation, actions):
 
 # %% softmax_of_whole_numbers loses 12.1
 # Gives whole numbers if the scores are whole numbers, so that probabilities below 1 become 0, but floats are asked for.
-# says: type of the scores
+# says: this
 # -     return powers / powers.sum(axis=-1, keepdims=True)
 # +     return (powers / powers.sum(axis=-1, keepdims=True)).astype(np.result_type(given))
 # -     scores = np.asarray(scores, dtype=np.float64)
@@ -632,7 +632,7 @@ def train(environment, seed, iterations=50, episodes=20, **others):
 
 # %% dart_on_the_border loses 12.2
 # Takes the first action whose sum is at least u, but the sum should be greater than u.
-# says: must be greater than u
+# says: this
 # -     beyond = np.cumsum(probabilities) > rng.random()
 # +     beyond = np.cumsum(probabilities) >= rng.random()
 
@@ -695,49 +695,49 @@ def choose(probabilities, rng):
 
 # %% sigma_is_no_parameter loses 12.8
 # Leaves ln sigma as it is at the beginning, but the optimiser should change it, too.
-# says: ln sigma is the same number in all calls of gaussian_loss
+# says: the same in all calls of \['gaussian_loss'\]
 # -     optimiser = torch.optim.Adam([*network.parameters(), log_deviation], lr=learning_rate)
 # +     optimiser = torch.optim.Adam(network.parameters(), lr=learning_rate)
 
 
 # %% noise_of_the_beginning loses 12.8
 # Draws all actions with the ln sigma of the beginning, but gaussian_action should get the one that is learnt.
-# says: always acts with one deviation
+# says: the same in all calls of \['gaussian_action'\]
 # -         parameters, spread = parameters_of(network), log_deviation.detach().numpy().copy()
 # +         parameters, spread = parameters_of(network), np.zeros(noutputs)
 
 
 # %% starts_of_the_first_iteration loses 12.8
 # Begins the episodes of each iteration with the seeds of the first one, but `seed + i * starts + e % starts` is asked for.
-# says: all iterations begin their episodes with the seeds of the first one
+# says: begins its episodes with the seeds
 # -         first = seed + iteration * starts
 # +         first = seed
 
 
 # %% starts_one_further_in_each_iteration loses 12.8
 # Adds the iteration i to the seed of an episode, but i * starts should be added.
-# says: share most of their starts
+# says: begins its episodes with the seeds
 # -         first = seed + iteration * starts
 # +         first = seed + iteration
 
 
 # %% starts_without_the_seed loses 12.8
 # Leaves `seed` out of the seeds of the episodes, but `seed + i * starts + e % starts` is asked for.
-# says: begins its episodes with the same seeds
+# says: begins its episodes with the seeds
 # -         first = seed + iteration * starts
 # +         first = iteration * starts
 
 
 # %% nothing_for_the_rest_of_the_ruler loses 12.2
 # Returns action 0 if no sum is greater than u (by rounding), but the last action is asked for.
-# says: the last action owns the rest of the ruler
+# says: this
 # -     return int(np.argmax(beyond)) if beyond.any() else len(probabilities) - 1
 # +     return int(np.argmax(beyond))
 
 
 # %% one_largest_score_for_all_steps loses 12.1
 # Subtracts the same number from all rows, so that rows of much lower scores become 0 / 0 = NaN, but each row's own largest score should be subtracted.
-# says: from each row its own largest score
+# says: this
 # -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
 # +     powers = np.exp(scores - scores.max())
 
@@ -757,28 +757,27 @@ def choose(probabilities, rng):
 
 # %% mean_subtracted_from_the_scores loses 12.1
 # Subtracts another number than the largest score of each row, so that exponentials of large scores overflow and give NaN.
-# says: the largest score of each row should be subtracted
+# says: this
 # -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
 # +     powers = np.exp(scores - scores.mean(axis=-1, keepdims=True))
 
 
 # %% tiny_number_against_0 loses 12.5
 # Keeps the probability under the logarithm at 1e-10 or more, so that large surprises come out too small; ln p(a) should be computed from the scores.
-# says: no surprise is larger
+# says: this
 # -     return (torch.logsumexp(scores, dim=1) - chosen).mean()
 # +     return -torch.log(torch.exp(chosen - torch.logsumexp(scores, dim=1)) + 1e-10).mean()
 
 
 # %% one_column_is_whole loses 12.6
 # Turns actions with a single column into int64, but float32 is asked for if they are not whole.
-# says: this|with actions of torch.float32
+# says: this
 # -     whole = np.issubdtype(np.asarray(actions).dtype, np.integer)
 # +     whole = np.asarray(actions).ndim == 1 or np.shape(actions)[1] == 1
 
 
 # %% acts_as_in_the_beginning loses 12.8
 # Acts with the parameters of the beginning in all iterations, but each iteration should act with those learnt so far.
-# says: should be taken from the network again
 # -     for iteration in range(iterations):
 # -         parameters, spread = parameters_of(network), log_deviation.detach().numpy().copy()
 # +     parameters, spread = parameters_of(network), log_deviation.detach().numpy().copy()
@@ -801,7 +800,7 @@ def choose(probabilities, rng):
 
 # %% mean_reward loses 12.3
 # Gives the mean of the rewards instead of their sum.
-# says: this|This is the mean of the rewards
+# says: this
 # -     return {"observations": np.array(observations), "actions": np.array(actions), "return": total}
 # +     mean = total / len(actions)
 # +     return {"observations": np.array(observations), "actions": np.array(actions), "return": mean}
@@ -817,7 +816,7 @@ def choose(probabilities, rng):
 
 # %% scores_cut_at_700 loses 12.1
 # Cuts large scores off at about 700, which makes them equally probable, instead of subtracting the largest score of each row.
-# says: cut off at a limit
+# says: this
 # -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
 # +     powers = np.exp(np.clip(scores, -700, 700))
 
@@ -831,7 +830,7 @@ def choose(probabilities, rng):
 
 # %% observation_at_the_end loses 12.3
 # Records the observation after the last step, too, but only what was seen before each step is asked for.
-# says: this|Its last row is what was seen after the last step
+# says: this
 # -     return {"observations": np.array(observations), "actions": np.array(actions), "return": total}
 # +     observations.append(observation)
 # +     return {"observations": np.array(observations), "actions": np.array(actions), "return": total}
@@ -888,7 +887,7 @@ def choose(probabilities, rng):
 
 # %% actions_as_floats loses 12.4
 # Turns whole actions into floats, but they should stay whole numbers.
-# says: this|actions must stay whole numbers
+# says: this
 # -         "actions": np.concatenate([episode["actions"] for episode in kept]),
 # +         "actions": np.concatenate([episode["actions"] for episode in kept]).astype(float),
 
@@ -984,7 +983,7 @@ def choose(probabilities, rng):
 
 # %% quotient_of_starts loses 12.8
 # Uses e // starts in the seed of episode e, but e % starts is asked for.
-# says: right only if starts is 1
+# says: begins its episodes with the seeds
 # -         found = [run_episode(environment, act, first + e % starts) for e in range(episodes)]
 # +         found = [run_episode(environment, act, first + e // starts) for e in range(episodes)]
 
@@ -1040,7 +1039,7 @@ def gaussian_loss(means, log_deviation, actions):
 
 # %% density_before_its_logarithm loses 12.7
 # Computes the density before its logarithm: far from the mean it is rounded to 0 and the loss becomes infinite, but the formula needs no density.
-# says: this|the logarithm of 0
+# says: this
 def gaussian_loss(means, log_deviation, actions):
     sigma = log_deviation.exp()
     bell = torch.exp(-((actions - means) ** 2) / (2 * sigma**2))
