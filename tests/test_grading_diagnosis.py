@@ -6,10 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from botschool.grading.declare import diagnosis
-from botschool.grading.declare.checks import Mismatch, Wrong, expect_close
+from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.diagnosis import DETECTORS, diagnose
 from botschool.grading.declare.diagnosis.comparison import Comparison
-from botschool.grading.declare.slips import slips, spoiled
 from botschool.grading.run.student import Student
 from tiny_course import submit
 
@@ -183,12 +182,6 @@ def test_says_little_about_small_whole_numbers(got, wanted):
     assert diagnose(got / 10, wanted / 10 + 0.5) == "" or got / 10 == wanted / 10 + 0.5
 
 
-def test_mistakes_that_a_grader_knows():
-    known = {"Of all ones.": np.ones(3), "Nothing new.": [1.0, 2.0, 3.0]}
-    assert diagnose([1.0, 1.0, 1.0], [1.0, 2.0, 3.0], mistakes=known) == "Of all ones."
-    assert diagnose([1.0, 1.0, 2.0], [1.0, 2.0, 3.0], mistakes=known) != "Of all ones."
-
-
 def test_odd_values_are_no_trouble():
     for got, wanted in (
         ([], []),
@@ -354,53 +347,3 @@ def test_nothing_is_refused_elsewhere(tmp_path):
         assert student.call("by_a_later_import") == [0.0, 0.0, 0]
     finally:
         student.close()
-
-
-def test_slips_come_alone_and_in_pairs():
-    found = slips(
-        lambda factor, more: 3 * factor + more,
-        factor={"": 1, "Twice as much.": 2},
-        more={"": 0, "One more.": 1, "One less.": -1},
-    )
-    assert found == {
-        "Twice as much.": 6, "One more.": 4, "One less.": 2,
-        "Twice as much. One more.": 7, "Twice as much. One less.": 5,
-    }  # fmt: skip
-    assert slips(lambda a: a, most=1, a={"": 0, "Wrong.": 1}) == {"Wrong.": 1}
-
-
-def test_mistakes_are_computed_only_for_a_wrong_answer():
-    asked = []
-
-    def mistakes():
-        asked.append(1)
-        return {"Twice as much.": 2.0}
-
-    expect_close("f(1)", 1.0, 1.0, mistakes=mistakes)
-    assert not asked
-    with pytest.raises(Mismatch) as found:
-        expect_close("f(1)", 2.0, 1.0, mistakes=mistakes)
-    assert not asked
-    assert found.value.mistakes == {"Twice as much.": 2.0}
-
-
-def test_a_wrong_number_comes_with_what_the_task_says_about_it():
-    with pytest.raises(Wrong, match=r"\n  Row 1, column 0 counts\."):
-        expect_close(
-            "f()",
-            [[0, 0], [1, 0]],
-            np.zeros((2, 2)),
-            why=lambda i, j: f"Row {i}, column {j} counts.",
-        )
-
-
-def test_a_spoiled_answer_comes_between_one_slip_and_two():
-    table = {"Left out.": np.ones(3), "Left out. Doubled.": np.zeros(3)}
-    changed = {"The argument is reversed.": np.full(3, 7.0)}
-    found = spoiled(table, np.array([1.0, 2.0, 4.0]), changed)
-    texts = list(found)
-    assert texts[:2] == ["Left out.", "The argument is reversed."]
-    assert texts[-1] == "Left out. Doubled."
-    assert found["The answer stands in the opposite order."].tolist() == [4, 2, 1]
-    assert "The answer stands in the opposite order." not in spoiled({}, 3.0)
-    assert spoiled({}, 3.14159)["The answer is rounded to 2 places."] == 3.14

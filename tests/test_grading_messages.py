@@ -10,9 +10,7 @@ from botschool.grading import (
     Wrong,
     expect_array,
     expect_close,
-    expect_ends,
     expect_fields,
-    went_on,
 )
 from botschool.grading.declare.checks import Mismatch
 from botschool.grading.declare.exercise import Exercise as Declared
@@ -20,7 +18,7 @@ from botschool.grading.declare.exercise import load_exercise
 from botschool.grading.declare.trust import trust
 from botschool.grading.declare.values import apart, kind, pasted, show
 from botschool.grading.judge.known import VARIED
-from botschool.grading.judge.looking import Failure, look_for_causes, same
+from botschool.grading.judge.looking import same
 from botschool.grading.judge.submission import grade
 from tiny_course import FILE, SOLUTION, make_course, submit
 
@@ -287,13 +285,11 @@ def test_equal_neighbours_of_many_are_pasted_in_short():
     assert pasted("f", (np.arange(64.0),), {}) == ""
 
 
-def test_the_call_and_the_cause_stand_below(graded):
+def test_the_cause_stands_above_the_call(graded):
     message = graded("def double(x): return -2 * x\n").tasks[0].message
-    cause, first, call, *_ = message.splitlines()
-    assert first.startswith("double([")
+    cause, call = message.splitlines()
     assert cause.startswith(f"{VARIED} The sign is reversed")
-    assert call.startswith("  To try it: double(np.array([")
-    assert eval(call.partition(": ")[2], {"np": np, "double": len}) == 4
+    assert call.startswith("double(")
 
 
 def test_a_right_answer_may_not_change_what_it_is_given(graded):
@@ -334,44 +330,12 @@ def test_two_calls_are_bounded_and_cost_no_time(graded):
 # --- the two ends of an episode
 
 
-@pytest.mark.parametrize(
-    ("got", "wanted", "words"),
-    [
-        ((True, False), (False, True), "The two are exchanged"),
-        ((False, True), (True, False), "The two are exchanged"),
-        ((True, True), (False, True), "if only the time is over, terminated stays False"),
-        ((True, True), (True, False), "that ended by itself is not truncated"),
-        ((True, True), (False, False), "as the old `done` was."),
-        ((False, True), (False, False), "Stopping earlier"),
-        ((True, False), (False, False), ""),
-        ((False, False), (True, False), ""),
-        ((1, False), (True, False), ""),
-    ],
-)
-def test_terminated_and_truncated_mixed_up(got, wanted, words):
-    with pytest.raises(Wrong, match=r"f\(1\): t\w+ is \w+, but it should be \w+\.") as caught:
-        expect_ends("f(1)", got, wanted, "it should be")
-    cause = str(caught.value).partition("\n  ")[2]
-    assert words in cause and bool(cause) == bool(words)
-
-
-def test_ends_that_are_right():
-    for ends in ((True, False), (False, True), (False, False)):
-        expect_ends("f(1)", ends, ends, "it should be")
-
-
 def test_whole_numbers_where_fractions_belong_are_said():
     with pytest.raises(Wrong, match="an array of int64, which holds no fractions"):
         expect_close("f(1)", np.array([0, 0]), [0.25, 0.75])
     with pytest.raises(Wrong) as wrong:
         expect_close("f(1)", np.array([0, 0]), [1.0, 2.0])
     assert "fractions" not in str(wrong.value)
-
-
-def test_an_episode_that_went_on():
-    assert "it says truncated in that step, and not terminated" in went_on(False, True)
-    assert "it says terminated in that step, and not truncated" in went_on(True, False)
-    assert went_on(False, False) == went_on(True, True) == ""
 
 
 def test_single_precision_is_accepted_where_numbers_are_fractions():
@@ -383,22 +347,3 @@ def test_single_precision_is_accepted_where_numbers_are_fractions():
         expect_close("f()", (wanted * 1.0001).astype(np.float32), wanted)
     with pytest.raises(Mismatch):
         expect_close("f()", [1_000_001, 3], [1_000_000, 3])
-
-
-@pytest.mark.parametrize("made, told", [([5.0, 6.0, 7.0], True), ([5.0, 6.0, 8.0], False)])
-def test_a_slow_check_names_the_mistake_of_its_first_answer(made, told):
-    """It is not run again to its end, so the message does not depend on how busy the machine is."""
-    wrong = Mismatch(
-        "", np.array([5.0, 6.0, 7.0]), np.array([7.0, 5.0, 6.0]), {"Sorted.": np.array(made)}
-    )
-    failure = Failure("", quick=False, wrong=wrong)
-    look_for_causes([failure], [], None)
-    assert (failure.cause, failure.named) == (("Sorted.", True) if told else ("", False))
-
-
-def test_a_slow_check_may_compare_single_numbers_or_other_shapes():
-    single = Failure("", wrong=Mismatch("", 97.0, 9.7, {"The sum.": 97.0}))
-    longer = Mismatch("", np.arange(4.0), np.arange(3.0), lambda: 1 / 0)
-    failures = [single, Failure("", wrong=longer)]
-    look_for_causes(failures, [], None)
-    assert not any(each.cause for each in failures)  # one number proves nothing

@@ -14,7 +14,6 @@ from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.copies.skeleton import BEGIN
-from botschool.grading.declare.beside import slips_beside
 from botschool.grading.declare.exercise import (
     Exercise,
     course_root,
@@ -109,12 +108,12 @@ def _beside(folder: Path, exercise: Exercise) -> dict[str, str]:
 
     These are the packed grader, the text and the hints, as path from the notebook -> content.
     """
-    found, slips = {}, slips_beside(folder)
+    found = {}
     for path in sorted([*folder.glob("test_*.py"), *folder.glob("*.md")]):
         text = path.read_text(encoding="utf-8")
         packed = path.suffix == ".py" and "unpack(" not in text
         place = f"exercises/{folder.name}/{path.name}"
-        found[place] = pack(text, exercise.references, slips=slips) if packed else text
+        found[place] = pack(text, exercise.references) if packed else text
     return found
 
 

@@ -17,19 +17,17 @@ import zlib
 from pathlib import Path
 from typing import Any
 
-from botschool.grading.declare.beside import importable
-
 PACKED = "ANSWERS.packed"
 """A file in an exercise's folder of the copy, if the instructor allows it."""
 
 
-def pack(grader: str, solution: str = "", mistakes: str = "", slips: str = "") -> str:
+def pack(grader: str, solution: str = "", mistakes: str = "") -> str:
     """Return the text of a Python file that declares the same exercise as a grader file.
 
-    solution, mistakes: what the exercise knows, packed with it. slips: the text of slips.py. The
-    extras stay readable, because `make test-exN` reads them before there is a Python.
+    solution, mistakes: what the exercise knows, packed with it. The extras stay readable, because
+    `make test-exN` reads them before there is a Python.
     """
-    all_of_it = json.dumps([grader, solution, mistakes, slips]).encode()
+    all_of_it = json.dumps([grader, solution, mistakes]).encode()
     packed = base64.b85encode(zlib.compress(all_of_it, 9)).decode()
     lines = "\n".join(f'    "{packed[at : at + 90]}"' for at in range(0, len(packed), 90))
     extras = re.search(r"extras=\([^)]*\)", grader)
@@ -48,15 +46,14 @@ def is_packed(text: str) -> bool:
 
 def unpack(file: str, packed: str) -> Any:
     """Return the exercise that a packed grader declares; file: the grader's path."""
-    source, solution, mistakes, *slips = json.loads(zlib.decompress(base64.b85decode(packed)))
+    source, solution, mistakes = json.loads(zlib.decompress(base64.b85decode(packed)))
     name = str(Path(file).with_suffix(".unpacked"))
     # so that a child can be sent the source of its drivers
     linecache.cache[name] = (len(source), None, source.splitlines(keepends=True), name)
     module = types.ModuleType(f"unpacked_{Path(file).stem}")
     module.__file__ = file
     sys.modules[module.__name__] = module  # dataclasses look up their module
-    with importable(Path(file).parent, "".join(slips)):
-        exec(compile(source, name, "exec", dont_inherit=True), vars(module))
+    exec(compile(source, name, "exec", dont_inherit=True), vars(module))
     module.exercise.knows(solution, mistakes)
     return module.exercise
 

@@ -24,7 +24,6 @@ from types import MappingProxyType
 from typing import Any
 
 from botschool.errors import BotschoolError
-from botschool.grading.declare.beside import SLIPS
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import (
     STATE,
@@ -292,7 +291,7 @@ def _versions(root: Path, number: Number) -> str:
     own: list[Path] = []
     if isinstance(number, int):
         folder = folder_of(number, root)
-        own += [*sorted(folder.glob("test_*.py")), *folder.glob(SLIPS)]
+        own += sorted(folder.glob("test_*.py"))
         own += sorted((root / "solutions" / folder.name).glob("*.py"))
         own += case_files(root, number)
     for path in (*sorted((IMPORT_ROOT / "botschool").rglob("*")), *own):

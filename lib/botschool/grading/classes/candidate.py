@@ -18,7 +18,6 @@ from botschool.grading.classes.texts import (
     text_of_page,
 )
 from botschool.grading.copies.starting import original
-from botschool.grading.declare.beside import SLIPS
 from botschool.grading.declare.exercise import Number, folder_of
 
 MARKDOWN = (".md", ".qmd", ".rmd")
@@ -184,7 +183,7 @@ def _others(exercises: Path, own: str) -> dict[str, set[str]]:
     """Return the names of the other exercises' files, each with what the file defines."""
     found = {}
     for path in exercises.glob("ex[0-9][0-9]_*/*.py"):
-        if path.parent.name != own and not path.name.startswith("test_") and path.name != SLIPS:
+        if path.parent.name != own and not path.name.startswith("test_"):
             text = path.read_text(encoding="utf-8", errors="replace")
             found[squashed(path.stem)] = names_in(text)
     return found

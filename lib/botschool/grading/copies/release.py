@@ -16,7 +16,6 @@ from pathlib import Path
 
 from botschool.errors import BotschoolError
 from botschool.grading.copies.skeleton import find_leaks, pairs, skeleton
-from botschool.grading.declare.beside import slips_beside
 from botschool.grading.declare.exercise import exercise_numbers, folder_of
 from botschool.grading.declare.mistakes import case_files
 from botschool.grading.declare.trust import check_trusted, trust
@@ -221,7 +220,7 @@ def _packed(grader: str, root: Path, folder: str) -> str:
     solution = (root / "solutions" / folder / file[1]).read_text(encoding="utf-8")
     cases = case_files(root, int(folder[2:4]))
     known = "\n".join(path.read_text(encoding="utf-8") for path in cases)
-    return pack(grader, solution, known, slips_beside(root / "exercises" / folder))
+    return pack(grader, solution, known)
 
 
 def pack_measures(package: Path, target: Path) -> None:

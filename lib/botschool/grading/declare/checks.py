@@ -3,10 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from contextvars import ContextVar
-from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -20,67 +16,8 @@ class Wrong(Exception):
     """A check failed; the message is the sentence that the learner reads."""
 
 
-_NUMBER = re.compile(r"[-+]?\d[\d.e+-]*")
-Mistakes = dict[str, Any] | Callable[[], dict[str, Any]]
-"""Sentence -> the answer that this mistake leads to, or a function that returns this."""
-
-
 class Mismatch(Wrong):
-    """An answer differs from the expected one; `diagnosis` looks for a likely cause."""
-
-    def __init__(
-        self,
-        sentence: str,
-        got: np.ndarray,
-        wanted: np.ndarray,
-        mistakes: Mistakes | None = None,
-        said: str = "",
-        right: bool = False,
-    ) -> None:
-        """said: the call and the part of its answer. right: whether the answer is right after all.
-
-        A right answer shows which mistakes the submission has not made.
-        """
-        super().__init__(sentence)
-        self.got, self.wanted = np.asarray(got), np.asarray(wanted)
-        self._mistakes = mistakes or {}
-        self._said, self.right = said, right
-
-    @property
-    def part(self) -> tuple[str, str]:
-        """Return the name of the function and of the part of its answer, without numbers."""
-        name, _, part = _NUMBER.sub("", self._said).partition("(")
-        return name, part.rpartition("): ")[2] if "): " in part else ""
-
-    @cached_property
-    def mistakes(self) -> dict[str, Any]:
-        """Return the answers of typical mistakes, by sentence."""
-        return self._mistakes() if callable(self._mistakes) else self._mistakes
-
-
-Keep = Callable[[Mismatch], None]
-_keep: ContextVar[Keep | None] = ContextVar("keep", default=None)
-
-
-@contextmanager
-def keeping(keep: Keep) -> Iterator[None]:
-    """Let a check continue after a wrong answer within the block; pass each one to `keep`.
-
-    It also gets right answers for which the check has mistakes, with `right` set.
-    """
-    token = _keep.set(keep)
-    try:
-        yield
-    finally:
-        _keep.reset(token)
-
-
-def _found(mismatch: Mismatch) -> None:
-    """Keep a mismatch, or raise it unless it is right."""
-    if (keep := _keep.get()) is not None:
-        keep(mismatch)
-    elif not mismatch.right:
-        raise mismatch
+    """An answer differs from the expected number or array."""
 
 
 class NotDone(Wrong):
@@ -116,27 +53,16 @@ def expect_array(said: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
     return array
 
 
-def expect_close(
-    said: str,
-    value: Any,
-    expected: Any,
-    tolerance: float = 1e-9,
-    mistakes: Mistakes | None = None,
-    why: Callable[..., str] | None = None,
-) -> None:
+def expect_close(said: str, value: Any, expected: Any, tolerance: float = 1e-9) -> None:
     """Raise Mismatch unless the value equals the expected number or array.
 
     tolerance: relative and absolute. Fractions in single precision may differ by as much as single
     precision does (see `_allowed`).
-    mistakes: a sentence that names a typical mistake ("The biases are left out.") -> the answer
-    that it leads to; or a function that returns this, called if the value is wrong.
-    why: returns what the task says about the number at an index, for the first wrong one.
     """
     wanted = np.asarray(expected, dtype=np.float64)
     array = _array(said, value, wanted.shape)
     if array.shape != wanted.shape:
-        _found(Mismatch(_but(said, value, wanted.shape), array, wanted, mistakes, said))
-        return
+        raise Mismatch(_but(said, value, wanted.shape))
     odd = ~np.isfinite(wanted) & ((array == wanted) | (np.isnan(array) & np.isnan(wanted)))
     got, wanted = (
         expect_array(said, np.where(odd, 0.0, array), wanted.shape),
@@ -152,13 +78,7 @@ def expect_close(
             sentence = f"{said} {came(said)} {bool(value)}, but {bool(expected)} was expected."
         if cuts_fractions(value, wanted):
             sentence += f"\n  It is an array of {value.dtype}, which holds no fractions."
-        if why:
-            place = np.unravel_index(int(np.argmin(close)), close.shape)
-            reason = why(*map(int, place))
-            sentence += f"\n  {reason}" if reason else ""
-        _found(Mismatch(sentence, got, wanted, mistakes, said))
-    elif isinstance(mistakes, (dict, partial)):  # a lambda may be of another case later
-        _found(Mismatch("", got, wanted, mistakes, said, right=True))
+        raise Mismatch(sentence)
 
 
 def cuts_fractions(value: Any, wanted: Any) -> bool:
@@ -264,54 +184,3 @@ def came(said: str) -> str:
 def plain(text: str) -> str:
     """Return a submission's text without characters that control a terminal or reverse the text."""
     return "".join(c if c in "\n\t" or c.isprintable() or c == " " else "\ufffd" for c in text)
-
-
-ENDS = ("terminated", "truncated")
-
-
-def expect_ends(said: str, got: tuple[Any, Any], wanted: tuple[bool, bool], why: str) -> None:
-    """Raise Wrong unless `terminated` and `truncated` are the expected truth values.
-
-    said: the name of the call. why: the words before the right value, as "the environment said".
-    """
-    for name, value, right in zip(ENDS, got, wanted, strict=True):
-        if not isinstance(value, bool) or value != right:
-            sentence = f"{said}: {name} is {show(value)}, but {why} {right}."
-            raise Wrong(f"{sentence}\n  {mixed_up(got, wanted)}".rstrip())
-
-
-def mixed_up(got: tuple[Any, Any], wanted: tuple[bool, bool]) -> str:
-    """Return a sentence about a usual mistake with the two values; "" if it is none."""
-    got = tuple(got)
-    if got == wanted or not all(isinstance(each, bool) for each in got):
-        return ""
-    if got == wanted[::-1]:
-        return (
-            "The two are exchanged: terminated means that the problem itself has ended, "
-            "truncated that only its time is over."
-        )
-    if got == (True, True):
-        rest = {
-            (True, False): ": an episode that ended by itself is not truncated.",
-            (False, True): ": if only the time is over, terminated stays False.",
-        }
-        return f"Both are True, as the old `done` was{rest.get(wanted, '.')}"
-    if wanted == (True, True):
-        return "Both can be True: the time limit may be over in the very step that ends the task."
-    if got == (False, True) and wanted == (False, False):
-        return (
-            "truncated means that the environment's own time limit is over. Stopping "
-            "earlier, after the requested number of steps, truncates nothing."
-        )
-    return ""
-
-
-def went_on(terminated: bool, truncated: bool) -> str:
-    """Return a sentence if an answer goes on after the end of an episode; "" if it does not."""
-    if terminated == truncated:
-        return ""
-    one, other = ENDS if terminated else ENDS[::-1]
-    return (
-        f"As gymnasium.make makes the environment, it says {one} in that step, and not {other}: an "
-        "episode ends when either of the two is True."
-    )

@@ -17,7 +17,6 @@ from pathlib import Path
 from typing import Any
 
 from botschool.errors import BotschoolError, listed
-from botschool.grading.declare.beside import importable, slips_beside
 from botschool.grading.declare.mistakes import Known, case_files
 from botschool.grading.declare.references import pruned
 from botschool.grading.declare.secret import DEFAULT, VARIABLE, grading_secret
@@ -75,12 +74,6 @@ class Task:
             return function
 
         return keep
-
-    @property
-    def declared(self) -> bool:
-        """Return whether checks of this exercise declare their inputs (same.py)."""
-        checks = [each for task in self.exercise.tasks for _, _, each in task.checks]
-        return any(hasattr(each, "what") for each in checks)
 
     @property
     def max_points(self) -> int:
@@ -281,8 +274,7 @@ def load_exercise(number: int, root: Path | None = None) -> Exercise:
     spec = importlib.util.spec_from_file_location(name, graders[0])
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module  # dataclasses look their module up
-    with importable(folder, slips_beside(folder)):
-        spec.loader.exec_module(module)
+    spec.loader.exec_module(module)
     exercise = module.exercise
     root = root or course_root()
     solution = root / "solutions" / folder.name / exercise.file

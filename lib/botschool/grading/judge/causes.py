@@ -99,11 +99,12 @@ class Explanation:
     def _diagnosed(self, calls: list[Call]) -> str:
         """Return a sentence that two wrong answers suggest, or ""."""
         told: list[str] = []
-        for call in sorted(calls, key=lambda call: len(call.request)):
+        different = {call.request: call for call in calls}.values()
+        for call in sorted(different, key=lambda call: len(call.request)):
             wrong = call.numbers()
             if wrong is not None and call.wrong:
                 got, wanted, given = wrong
-                told.append(diagnose(got, wanted, tuple(given), call.got, {}))
+                told.append(diagnose(got, wanted, tuple(given), call.got))
         alike = {_DIGITS.sub("", each) for each in told}
         return told[0] if len(told) > 1 and len(alike) == 1 else ""
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import time
 import traceback
 import warnings
@@ -17,7 +16,6 @@ from botschool.grading.declare.checks import Wrong, plain
 from botschool.grading.declare.exercise import Task
 from botschool.grading.declare.mistakes import Known
 from botschool.grading.judge.causes import Explanation
-from botschool.grading.judge.explaining import SecondLook
 from botschool.grading.judge.looking import (
     MAX_SECONDS,
     Failure,
@@ -39,9 +37,7 @@ SLIPS = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 MOST_SECONDS = 2.0
 """As MAX_SECONDS, of a check that has failed: a known mistake must explain its answers, too."""
 LOOKING_SECONDS = 6.0
-"""Processor seconds for a second look."""
-_SAME = re.compile(r" raised | changed its argument ")
-"""What follows is alike in the sentences of several checks on one exception, or on one change."""
+"""Processor seconds of the submission while a cause is looked for."""
 
 
 @dataclass
@@ -114,8 +110,7 @@ def _grade_task(
     tried: bool,
 ) -> TaskResult:
     result = TaskResult(task.id, task.title, 0, task.max_points, "")
-    problems: list[str] = []
-    failed: list[tuple[int, Failure]] = []
+    failed: list[Failure] = []
     cheap: list[Callable[[Student], None]] = []
     student, call, shown = None, "", ""
     try:
@@ -133,8 +128,7 @@ def _grade_task(
             if problem is None:
                 result.points += worth
             else:
-                failed.append((len(problems), problem))
-                problems.append(problem.text)
+                failed.append(problem)
                 call = call or student.pasted
         student.stop()
         if references is None:
@@ -147,21 +141,11 @@ def _grade_task(
         begun = partial(Student, file, *limits, origin, references, task.refused)
         if references is not None:
             shown = f"Then {call} is wrong." if call else ""
-        elif problems:
-            shown = problems[0] if task.declared else _each_once(problems)
-        if failed:
-            failures = [failure for _, failure in failed]
-            if task.declared:
-                quiet = references is not None
-                explanation = Explanation(
-                    task, known, task.exercise.ours, begun, failures, cheap, quiet
-                )
-                look = explanation.text
-            else:
-                second = SecondLook(
-                    task, known, file.name, server, seconds, begun, cheap, failed, problems
-                )
-                look = partial(_second_look, second, None if references is None else shown)
+        elif failed:
+            shown = failed[0].text
+        if failed and known.solution:
+            quiet = references is not None
+            look = Explanation(task, known, task.exercise.ours, begun, failed, cheap, quiet)
             result.explain = partial(_explained, look, shown)
     except Wrong as error:
         shown = str(error)
@@ -172,31 +156,15 @@ def _grade_task(
     return result
 
 
-def _explained(look: Callable[[], str], shown: str) -> str:
-    """Return the message of a second look; the one that is shown already, if that fails."""
+def _explained(look: Explanation, shown: str) -> str:
+    """Return the message with the cause; the one that is shown already, if that fails."""
     try:
-        return plain(look())
+        return plain(look.text())
     except SLIPS as slip:  # of ours, and points do not depend on it
         warnings.warn(f"The cause of a failure could not be found: {slip!r}.", stacklevel=1)
     except BotschoolError:  # a fault of the machine
         pass
     return plain(shown)
-
-
-def _second_look(look: SecondLook, quiet: str | None) -> str:
-    """Return the message of the old form; quiet: what is said if no known mistake is found."""
-    told = look.explain()
-    if quiet is not None:
-        return told or quiet
-    return "\n".join(filter(None, [told, _each_once(look.problems)]))
-
-
-def _each_once(problems: list[str]) -> str:
-    """Return the lines; the same exception or change once, though several checks meet it."""
-    said: dict[str, str] = {}
-    for each in problems:
-        said.setdefault(_SAME.split(each, maxsplit=1)[-1], each)
-    return "\n".join(said.values())
 
 
 def _problem(task: Task, check: Callable[[Student], None], student: Student) -> Failure | None:

@@ -15,10 +15,8 @@ import math
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import closing
 from dataclasses import dataclass
 from itertools import count, islice
-from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
@@ -33,16 +31,13 @@ from botschool.grading.judge.looking import TookTooLong, processor_time_limit
 from botschool.grading.judge.sentences import Variation
 from botschool.grading.judge.variations import variations
 from botschool.grading.run.student import Student
-from botschool.sandbox import ForkServer
-from botschool.sandbox.protocol import pack, unpack
+from botschool.sandbox.protocol import unpack
 
 TOLD = "Your code"
 VARIED = "Your answers fit this slip:"
 """Words before the sentence on a known mistake, and before the sentence on a slip."""
 SECONDS = 3.0
 """Processor seconds for all slips of a task; known mistakes have twice that."""
-TOTAL = 3 * SECONDS
-"""Processor seconds of our child."""
 SLIP_SECONDS = 0.1
 """Processor seconds for one answer with a slip in our solution, which may loop without end."""
 CASE_SECONDS = 0.25
@@ -73,8 +68,6 @@ class Call:
     seconds: float = 0.0
     """Processor seconds that our solution took."""
     got: Any = None
-    slow: bool = False
-    """Whether the check takes long: a mistake must explain the answer, which is no proof of it."""
     equal: Callable[[Any, Any], bool] | None = None
     """Whether two answers are the same to the grader, if it looks at parts of them only."""
 
@@ -101,7 +94,7 @@ class Call:
     def proof(self, made: Any) -> float:
         """Return how much proof an answer that agrees is."""
         unlike = _raised(self.got) and not (_raised(made) and made == self.got)
-        if self.slow or self.loose or unlike:
+        if self.loose or unlike:
             return 0.0
         if self.equal is not None and not _raised(self.got):
             return float(self.wrong)
@@ -116,41 +109,13 @@ class Call:
         return np.asarray(pair[0]), np.asarray(pair[1]), [*given["arguments"]]
 
 
-def known_mistake(
-    task: Task,
-    checks: Iterable[Check],
-    known: Known,
-    submission: Student,
-    file: Path,
-    server: ForkServer,
-    others: Iterable[tuple[dict[str, Any], Any]] = (),
-) -> str:
-    """Return a line about the known mistake that explains a submission's answers, or "".
-
-    checks: the task's quick checks. submission: a Student whose time does not count. file: our
-    solution. others: requests of other checks that have failed, and the submission's answers.
-    """
-    try:
-        with closing(Student(file, TOTAL, task.memory, server, True, refused=task.refused)) as ours:
-            calls = calls_of(ours, checks)
-            calls = [call for call in calls if answered_by(submission, call)]
-            slow = [Call(pack(request), None, got=got, slow=True) for request, got in others]
-            return named(ours, calls, task, known, submission.text, slow)
-    except (BotschoolError, Wrong, OSError):  # a fault of the machine, or no time is left
-        return ""
-
-
-def named(
-    ours: Student, calls: list[Call], task: Task, known: Known, text: str, slow: Iterable[Call] = ()
-) -> str:
+def named(ours: Student, calls: list[Call], task: Task, known: Known, text: str) -> str:
     """Return a line about the known mistake, or the slip, that gives all these answers, or "".
 
-    ours: our solution in a process whose time limits the search. text: the submission's. slow:
-    calls whose answers must fit but prove nothing.
+    ours: our solution in a process whose time limits the search. text: the submission's.
     """
     if not known.solution or not _tells(calls, [call.got for call in calls]):
         return ""
-    calls = [*calls, *slow]
     for what, made, likely in _likely_first(ours, known.of(task.id)[:MOST], known.solution, calls):
         if ours.seconds_left < SECONDS and not likely:
             break  # so much is for slips
@@ -235,7 +200,7 @@ def _telling(calls: list[Call]) -> Call:
     that takes our solution long: mistakes would run out of time.
     """
     return min(
-        (call for call in calls if not call.slow and not call.loose),
+        (call for call in calls if not call.loose),
         key=lambda c: (
             not c.wrong,
             _raised(c.got),
@@ -283,10 +248,9 @@ def _clearest(slips: Iterator[Variation]) -> Variation | None:
 
 def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterator[Variation]:
     """Yield the slips that explain a submission's answers: in our solution, then in others."""
-    telling = _wrong(calls)
-    quick = [call for call in calls if not call.slow]
-    always = len(quick) > COUNTS and equal([call.got for call in quick])
-    if _few(telling) or (always and not equal([call.ours for call in quick])):
+    telling = [call for call in calls if call.wrong]
+    always = len(calls) > COUNTS and equal([call.got for call in calls])
+    if _few(telling) or (always and not equal([call.ours for call in calls])):
         return  # any slip might lead to it
     whole = all(counts(call.got, math.inf) for call in telling)  # the same for a limit a bit away
     styles = [text for text in known.styles() if _imports_little(text, known.solution)]
@@ -299,11 +263,6 @@ def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterat
         for slip, fitting in zip(batch, near, strict=True):
             if fitting and _explains(ours, slip.text, calls):
                 yield slip
-
-
-def _wrong(calls: list[Call]) -> list[Call]:
-    """Return the quick calls whose answers are wrong."""
-    return [call for call in calls if call.wrong and not call.slow]
 
 
 def _few(wrong: list[Call]) -> bool:

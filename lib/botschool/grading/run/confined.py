@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import Any
 
 from botschool.errors import BotschoolError
-from botschool.grading.declare.beside import SLIPS
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.run.refused import hidden_files, hidden_modules, refuse
 from botschool.grading.run.temporary import PREFIX
@@ -146,7 +145,7 @@ def content_digest(file: Path, sources: Iterable[str] | None = None) -> hashlib.
 
 
 def _is_grader(name: str, depth: int) -> bool:
-    return depth == 1 and (name.startswith("test_") or name == SLIPS)
+    return depth == 1 and name.startswith("test_")
 
 
 def close_class(*folders: Path) -> None:

@@ -18,14 +18,9 @@ from botschool.grading.declare.diagnosis import numbers, places
 from botschool.grading.declare.diagnosis.comparison import MAX_NUMBERS, Comparison, Detector, alike
 from botschool.grading.declare.diagnosis.places import of_shapes
 
-__all__ = ["DETECTORS", "diagnose", "fitting", "of_shapes"]
+__all__ = ["DETECTORS", "diagnose", "of_shapes"]
 
 DETECTORS: tuple[Detector, ...] = (*places.DETECTORS, *numbers.DETECTORS)
-
-
-def fitting(got: Any, wanted: Any, mistakes: dict[str, Any]) -> list[str]:
-    """Return the sentences of the mistakes that lead to an answer; mistakes: as in diagnose."""
-    return [text for text, made in mistakes.items() if alike(got, made) and not alike(wanted, made)]
 
 
 def diagnose(
@@ -33,12 +28,8 @@ def diagnose(
     wanted: Any,
     arguments: tuple = (),
     answer: Any = None,
-    mistakes: dict[str, Any] | None = None,
 ) -> str:
-    """Return a sentence about the likely cause, or "".
-
-    mistakes: sentence -> the answer that this mistake leads to; these are tried first.
-    """
+    """Return a sentence about the likely cause, or ""."""
     got, wanted = np.asarray(got, dtype=np.float64), np.asarray(wanted, dtype=np.float64)
     sizes_fit = 0 < got.size <= MAX_NUMBERS and 0 < wanted.size <= MAX_NUMBERS
     if not sizes_fit or not (np.all(np.isfinite(got)) and np.all(np.isfinite(wanted))):
@@ -46,7 +37,5 @@ def diagnose(
     found = Comparison(got, wanted, arguments, answer)
     if alike(got, wanted):
         return ""
-    if named := fitting(got, wanted, mistakes or {}):
-        return named[0]
     with np.errstate(all="ignore"):
         return next((text for each in DETECTORS if (text := each(found))), "")
