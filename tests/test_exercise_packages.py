@@ -17,10 +17,8 @@ from botschool.grading.declare.exercise import load_exercise
 tomllib = pytest.importorskip("tomllib")
 ROOT = Path(__file__).parents[1]
 NUMBERS = sorted(int(path.name[2:4]) for path in (ROOT / "solutions").glob("ex[0-9][0-9]_*"))
-OWN = {"botschool", "balance_bot", "slips", "pip"}
-"""Ours, what exercise 10 builds, slips.py beside a grader, and what stands in for tomllib in Python
-3.10.
-"""
+OWN = {"botschool", "balance_bot", "pip"}
+"""Ours, what exercise 10 builds, and what stands in for tomllib in Python 3.10."""
 BROUGHT = {"PIL", "imageio_ffmpeg", "pygame", "nbformat", "nbconvert", "traitlets"}
 """What matplotlib, imageio[ffmpeg], gymnasium[classic-control] and nbgrader are made of."""
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
@@ -62,7 +60,7 @@ def test_an_exercise_declares_what_it_imports(number):
     (solution,) = (ROOT / "solutions").glob(f"ex{number:02d}_*")
     (folder,) = (ROOT / "exercises").glob(f"ex{number:02d}_*")
     names = set()
-    for path in (*solution.glob("*.py"), *folder.glob("test_*.py"), *folder.glob("slips.py")):
+    for path in (*solution.glob("*.py"), *folder.glob("test_*.py")):
         names |= imported(path)
     assert not missing(names, load_exercise(number, ROOT).extras)
 

@@ -165,7 +165,7 @@ def test_course_below_a_readable_folder(tmp_path, monkeypatch):
 def test_graders_links_and_hidden_files_are_not_copied(tmp_path):
     file = submit(tmp_path / "own", SOLUTION)
     (tmp_path / "secret.txt").write_text("secret")
-    for name in ("test_tiny.py", "slips.py", ".hidden", "helper.py", "data/test_numbers.npy"):
+    for name in ("test_tiny.py", ".hidden", "helper.py", "data/test_numbers.npy"):
         place = file.parent / name
         place.parent.mkdir(exist_ok=True)
         place.write_text("")
