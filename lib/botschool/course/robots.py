@@ -88,7 +88,7 @@ def registered(module, what, seed, gains):
     module.register_robot()
     point = getattr(gymnasium.registry.get("BalanceBotBulletEnv-v0"), "entry_point", ":")
     if not callable(point) and ":" not in str(point):
-        raise TypeError(f"entry_point should be the class itself, not {str(point):.40}")
+        raise TypeError(f"entry_point should be the class itself, not {point!s:.40}")
     env = gymnasium.make("BalanceBotBulletEnv-v0", render_mode="rgb_array")
     found = {"render_mode": env.unwrapped.render_mode}
     env.unwrapped.render_mode = None  # pictures take long

@@ -8,8 +8,22 @@ from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
+from botschool.grading.judge.alike import TIE, distance
+from botschool.grading.judge.looking import (
+    MAX_SECONDS,
+    Failure,
+    TookTooLong,
+    processor_time_limit,
+)
 from botschool.grading.run.student import Student
 
+KEPT = (
+    "The same call in a new process gives the right answer: something stays from call to call. "
+    "Look for a variable of the module, a default argument, an array that is changed in place, or "
+    "a file."
+)
+AGAIN = 6
+"""Right answers in new processes that show this: a random one of few values is right by chance."""
 Start = Callable[[], Student]
 
 
@@ -28,3 +42,23 @@ def answers_afresh(
         except (BotschoolError, Wrong, OSError):  # an exception, or a fault of the machine
             return None
     return answers[0], answers[1]
+
+
+def kept_something(failure: Failure, submission: Start, ours: Start) -> bool:
+    """Return whether a wrong answer is right in new processes, and wrong again after other calls.
+
+    A random answer is right by chance, but hardly wrong in the same way again.
+    """
+    for _ in range(AGAIN):
+        answers = answers_afresh(failure.request, submission, ours)
+        if answers is None or distance(*answers) > TIE or distance(failure.got, answers[0]) <= TIE:
+            return False
+    with closing(submission()) as student:
+        try:
+            with processor_time_limit(MAX_SECONDS):
+                failure.check(student)  # type: ignore[misc]  # it is quick, so it is there
+        except TookTooLong:
+            return False
+        except Exception:  # that of the check, or a fault of the machine
+            return distance(failure.got, student.answer) <= TIE
+    return False

@@ -36,6 +36,8 @@ class Failure:
     """The call to paste, if the text does not show it."""
     answered: bool = False
     """Whether the submission gave an answer to the last call."""
+    got: Any = None
+    """This answer."""
     raised: bool = False
     """Whether the last call ended with an exception."""
     direct: dict[str, Any] = field(default_factory=dict)
@@ -58,6 +60,7 @@ def failure_of(error: Wrong, check: Check, student: Student, seconds: float) -> 
     quick = answered and seconds < MAX_SECONDS
     failure = Failure(text, check, quick, student.request, pasted, answered)
     failure.direct, failure.shown = student.direct, bool(student.pasted) and not pasted
+    failure.got = student.answer
     failure.raised = not isinstance(error, NotDone) and bool(student.raised)
     if _of_another(text, failure.direct):
         failure.pasted, failure.direct = "", {}
