@@ -9,7 +9,6 @@ first stages reach -1273 to -1138, the middle ones -739 to -638 (margin 421), th
 -139. Of 300 others, 3 ended below -400: so one of two seeds is enough.
 """
 
-from functools import lru_cache
 
 import numpy as np
 from PIL import Image
@@ -226,7 +225,7 @@ def evolved(module, ask, seed, size):
         return module.three_stages(seed)
 
 
-@lru_cache(maxsize=2)
+@exercise.cached
 def stages_for(student: Student, index: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The student's stages, what they reach in new episodes, and the first candidates."""
     robot, rng = Robot("Pendulum-v1"), np.random.default_rng(exercise.seed(28))
@@ -317,7 +316,7 @@ def seen(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     return np.stack([columns, -rows], axis=1).astype(float)
 
 
-@lru_cache(maxsize=1)
+@exercise.cached
 def panels(student: Student) -> tuple[np.ndarray, list[np.ndarray]]:
     """The picture with CENTRE alone, and where -CORNER and CORNER of each panel are."""
     plain, corners = pixels_of(student, [CENTRE] * 3, [CENTRE] * 3), []
@@ -334,7 +333,7 @@ def panels(student: Student) -> tuple[np.ndarray, list[np.ndarray]]:
     return plain, corners
 
 
-@lru_cache(maxsize=3)
+@exercise.cached
 def with_arrows(student: Student, what: str) -> np.ndarray:
     """The picture with one of ARROWS in each panel; what: "fields", "paths", or both names."""
     arrows, none = [np.vstack([CENTRE, each]) for each in ARROWS], [CENTRE] * 3
