@@ -92,6 +92,8 @@ def height(rng):
 @same(rules, 6, "reward")
 def reward(rng):
     yield from observations(rng)
+    # arms that are raised
+    yield from (np.abs(each) * (-1, 1, 1, 1, 1, 1) for each in [*observations(rng)][1:8])
     # exactly on the line
     yield from (np.array([0.0, side, 0, side, 0, 0]) for side in (1, -1))
 
