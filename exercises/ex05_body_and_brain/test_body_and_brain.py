@@ -160,7 +160,7 @@ def trial(rng, seeds, steps=None, earlier=()):
 
     seeds: how many. earlier: seeds, by place in the list, of a call before.
     """
-    text = EXPERIMENT.format(maxsteps=5, hidden=rng.integers(3, 9), noise=5)
+    text = EXPERIMENT.format(maxsteps=rng.integers(4, 8), hidden=4, noise=5)
     drawn = sorted({seed_of(rng) for _ in range(seeds)}, reverse=True)
     return text, drawn, steps, [drawn[i] for i in earlier]
 
