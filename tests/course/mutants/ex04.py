@@ -66,7 +66,7 @@ def run_replications(experiment_file, seeds, folder, steps=None):
 
 # %% steps_ignored loses 4.3
 # Runs the whole budget of the experiment file whatever steps is, but should end each run after so many steps.
-# says: number of generations \(\d+\) than the run that was asked
+# says: this
 _replicate = run_replications
 
 
@@ -76,7 +76,7 @@ def run_replications(experiment_file, seeds, folder, steps=None):
 
 # %% read_along_the_wrong_axis loses 4.4
 # Reads the file as one column after another, but it holds one generation after another: six numbers for each.
-# says: one generation after another
+# says: this
 def read_stat(path):
     table = np.load(path).reshape(len(COLUMNS), -1)
     return dict(zip(COLUMNS, table, strict=True))
@@ -98,7 +98,7 @@ def curves(stats, column, budgets):
 
 # %% population_deviation loses 4.5
 # Divides by the number of runs instead of that number minus one.
-# says: n and n - 1 were mixed up
+# says: this
 _curves = curves
 
 
@@ -110,7 +110,7 @@ def curves(stats, column, budgets):
 
 # %% straight_lines loses 4.5
 # Interpolates between two generations, but the value of the last generation that is complete at the budget is asked for.
-# says: This interpolates
+# says: this
 def curves(stats, column, budgets):
     values = [np.interp(budgets, stat["steps"], stat[column]) for stat in stats]
     return {"mean": np.mean(values, axis=0), "deviation": np.std(values, axis=0, ddof=1)}
@@ -118,7 +118,7 @@ def curves(stats, column, budgets):
 
 # %% best_episode loses 4.6
 # Returns the highest return of the new episodes instead of their mean.
-# says: of the best episode, but the mean
+# says: this
 # -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
 # +             row[kind] = float(robot.evaluate(test_seed, episodes).max())
 
@@ -131,7 +131,7 @@ def curves(stats, column, budgets):
 
 # %% robots_mixed_up loses 4.6
 # Returns the value of bestS<seed>.npy as "bestg" and that of bestgS<seed>.npy as "best" instead of the other way round.
-# says: returned as 'bestg': are the two exchanged
+# says: this
 _compare = compare
 
 
@@ -142,7 +142,7 @@ def compare(experiment_file, folder, seeds, episodes, test_seed):
 
 # %% clears_the_folder loses 4.3
 # Deletes files of other runs in the folder, but they should stay.
-# says: of an earlier run is gone
+# says: this
 _replicate = run_replications
 
 
@@ -154,14 +154,14 @@ def run_replications(experiment_file, seeds, folder, steps=None):
 
 # %% folder_must_be_new loses 4.3
 # Fails if the folder exists already, but should use this folder.
-# says: FileExistsError
+# says: this
 # -     Path(folder).mkdir(parents=True, exist_ok=True)
 # +     Path(folder).mkdir(parents=True)
 
 
 # %% always_statS1 loses 4.4
 # Reads statS1.npy instead of the file that path names.
-# says: FileNotFoundError
+# says: this
 def read_stat(path):
     if "saved" not in str(path):
         path = "statS1.npy"
@@ -171,7 +171,7 @@ def read_stat(path):
 
 # %% rising_budgets_only loses 4.5
 # Never goes back to an earlier generation if a budget is smaller than the one before it, but the budgets come in any order.
-# says: in any order
+# says: this
 def curves(stats, column, budgets):
     values = []
     for stat in stats:
@@ -186,7 +186,7 @@ def curves(stats, column, budgets):
 
 # %% best_value_so_far loses 4.5
 # Takes the highest value up to the budget instead of the value of the last complete generation.
-# says: highest value up to the budget
+# says: this
 def curves(stats, column, budgets):
     stats = [stat | {column: np.maximum.accumulate(stat[column])} for stat in stats]
     values = [
@@ -197,7 +197,7 @@ def curves(stats, column, budgets):
 
 # %% sorted_seeds loses 4.6
 # Sorts the rows by their seed instead of keeping the order of the seeds given.
-# says: was expected there
+# says: this
 # -     for seed in seeds:
 # -         stat = read_stat(Path(folder) / f"statS{seed}.npy")
 # +     for seed in sorted(seeds):
@@ -206,7 +206,7 @@ def curves(stats, column, budgets):
 
 # %% first_generation_promises loses 4.6
 # Takes the value of the first generation for "promised", but the best post-evaluated fitness of the whole run is asked for.
-# says: of the first generation
+# says: this
 # -         row = {"seed": seed, "promised": float(stat["best post-evaluated"][-1])}
 # +         row = {"seed": seed, "promised": float(stat["best post-evaluated"][0])}
 
@@ -296,7 +296,7 @@ def curves(stats, column, budgets):
 
 # %% rewarded_on_the_line loses 4.2
 # Returns 0 for a free end exactly on the line, but only a free end above the line should give 0.
-# says: exactly on the line
+# says: this
 # -     return 0.0 if height(observation) > 1 else -1.0
 # +     c1, s1, c2, s2 = observation[:4]
 # +     return 0.0 if -c1 - (c1 * c2 - s1 * s2) >= 1 else -1.0
@@ -396,7 +396,7 @@ def curves(stats, column, budgets):
 
 # %% height_from_the_lowest_point loses 4.2
 # Measures the height from the lowest point that the arm reaches instead of from the nail.
-# says: above the lowest point
+# says: this
 # -     return float(-np.cos(state["angle1"]) - np.cos(state["angle1"] + state["angle2"]))
 # +     return float(2 - np.cos(state["angle1"]) - np.cos(state["angle1"] + state["angle2"]))
 
@@ -417,21 +417,21 @@ def curves(stats, column, budgets):
 
 # %% second_angle_put_back loses 4.1
 # Counts "angle2" from straight down (between -pi and pi), but it should be counted from the first link.
-# says: counted from straight down \(between
+# says: this
 # -         "angle2": float(np.arctan2(sin2, cos2)),
 # +         "angle2": float(np.arctan2(sin1 * cos2 + cos1 * sin2, cos1 * cos2 - sin1 * sin2)),
 
 
 # %% average_fitness_of_the_end loses 4.3
 # Returns the average fitness of the last generation instead of the best post-evaluated fitness.
-# says: average fitness of the last
+# says: this
 # -         fitness[seed] = float(run.record.bestg_fitness)
 # +         fitness[seed] = float(np.load(Path(folder) / f"statS{seed}.npy")[-2])
 
 
 # %% best_of_the_runs_so_far loses 4.3
 # Returns the best of this run and those before it for each seed, but each run's own value is asked for.
-# says: the best of this run and those before it
+# says: this
 # -     fitness = {}
 # +     fitness, best = {}, -np.inf
 # -         fitness[seed] = float(run.record.bestg_fitness)
@@ -478,7 +478,7 @@ def curves(stats, column, budgets):
 
 # %% first_angle_twice loses 4.1
 # Returns the first angle as "angle2", too, but the second angle is asked for.
-# says: This is angle1|first angle for the second
+# says: this
 # -         "angle2": float(np.arctan2(sin2, cos2)),
 # +         "angle2": float(np.arctan2(sin1, cos1)),
 

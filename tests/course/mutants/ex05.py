@@ -3,13 +3,13 @@
 
 # %% cut_off_instead_of_tanh loses 5.1
 # Cuts the parameters of lengths and thicknesses off at -1 and 1 instead of putting them through tanh.
-# says: sizes should use tanh
+# says: this
 # -     scales = 1 + 0.9 * np.tanh(parameters[:22].reshape(SEGMENTS, 2))
 # +     scales = 1 + 0.9 * np.clip(parameters[:22], -1, 1).reshape(SEGMENTS, 2)
 
 # %% density_scaled_like_sizes loses 5.1
 # Lets the density vary by 80 % (that is by 4) instead of by 0.8.
-# says: it should vary by 0.8
+# says: this
 _sizes = sizes
 
 
@@ -21,7 +21,7 @@ def sizes(parameters):
 
 # %% lengths_before_thicknesses loses 5.1
 # Takes the first eleven parameters for the lengths and the next eleven for the thicknesses, but they should take turns.
-# says: should take turns
+# says: this
 # -     scales = 1 + 0.9 * np.tanh(parameters[:22].reshape(SEGMENTS, 2))
 # -     lengths, thicknesses = 0.8 * scales[:, 0], 0.2 * scales[:, 1]
 # +     scales = 1 + 0.9 * np.tanh(parameters[:22].reshape(2, SEGMENTS))
@@ -53,7 +53,7 @@ def outline(parameters):
 
 # %% angles_not_cut_off loses 5.2
 # Scales the parameters of the default angles without cutting them off at -1 and 1.
-# says: not cut off at -1 and 1
+# says: this
 _joints = joints
 
 
@@ -74,7 +74,7 @@ def joints(parameters):
 
 # %% limits_as_they_come loses 5.2
 # Takes the first limit of each joint for the lower one and the second for the upper one, but the smaller one should be the lower one.
-# says: smaller one of the two
+# says: this
 _joints = joints
 
 
@@ -85,7 +85,7 @@ def joints(parameters):
 
 # %% angles_against_the_ground loses 5.3
 # Takes the default angle of each segment for its heading, but it should be added to the heading of the segment before.
-# says: is taken for the heading
+# says: this
 _joints_of_outline = joints
 
 
@@ -121,7 +121,7 @@ def outline(parameters):
 
 # %% twice_as_thick loses 5.3
 # Goes a whole thickness to each side, but half of it is asked for.
-# says: whole thickness to each side
+# says: this
 # -     side = size["thicknesses"][:, None] / 2 * across
 # +     side = size["thicknesses"][:, None] * across
 
@@ -213,7 +213,7 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 
 # %% rows_and_columns_exchanged loses 5.7
 # Has a row for each body and a column for each brain, but it should be the other way round.
-# says: transpose it
+# says: this
 _cross_evaluate = cross_evaluate
 
 
@@ -253,7 +253,7 @@ def loss(matrix):
 
 # %% brains_and_bodies_exchanged loses 5.8
 # Gives the losses of the bodies as "brains" and those of the brains as "bodies".
-# says: 'bodies': are the two exchanged
+# says: this
 _loss = loss
 
 
@@ -357,21 +357,6 @@ def evolve_walkers(experiment_file, seeds, folder, steps=None, found=[]):  # noq
     return np.array(found)
 
 
-# %% skips_what_is_there loses 5.5
-# Returns a walker of another run whose file was in the folder before, but each seed should have its own run.
-_evolve_walkers = evolve_walkers
-
-
-def evolve_walkers(experiment_file, seeds, folder, steps=None):
-    walkers = []
-    for seed in seeds:
-        path = Path(folder) / f"bestgS{seed}.npy"
-        if not path.exists():
-            _evolve_walkers(experiment_file, [seed], folder, steps)
-        walkers.append(np.load(path))
-    return np.array(walkers)
-
-
 # %% home_against_the_mean loses 5.8
 # Counts a brain that does better at home than in the others on average, but it should do better than in each of them.
 # -         "at home": int(np.sum(own > others.max(axis=1))),
@@ -413,7 +398,7 @@ def evolve_walkers(experiment_file, seeds, folder, steps=None):
 
 # %% mirrored_matrix loses 5.7
 # Gives the return of brain i in body j for brain j in body i, too (i < j), but each pair has its own return.
-# says: mirrors the one above
+# says: this
 def cross_evaluate(experiment_file, walkers, seed, episodes):
     n = len(walkers)
     found = np.zeros((n, n))
@@ -426,14 +411,14 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 
 # %% first_episode_only loses 5.7
 # Counts the first episode only, but the mean over all episodes is asked for.
-# says: Only the first episode counts
+# says: this
 # -                 SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed, episodes).mean()
 # +                 SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed, episodes)[0]
 
 
 # %% own_body_only loses 5.7
 # Leaves each brain in its own body, but it should be evaluated in every body.
-# says: that of the brain in its own body
+# says: this
 # -                 SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed, episodes).mean()
 # +                 SavedRobot(experiment_file, brain).evaluate(seed, episodes).mean()
 
@@ -569,7 +554,7 @@ def sizes(parameters):
 
 # %% corners_row_by_row loses 5.3
 # Gives the corners in the order beginning right, beginning left, end left, end right, but "beginning left" should come last.
-# says: beginning right, beginning left, end left, end right
+# says: this
 # -     return np.stack([beginnings - side, ends - side, ends + side, beginnings + side], axis=1)
 # +     return np.stack([beginnings - side, beginnings + side, ends + side, ends - side], axis=1)
 
@@ -618,7 +603,7 @@ def sizes(parameters):
 
 # %% one_run_for_all loses 5.5
 # Returns the walker of the first seed for all seeds, but each seed should have its own run.
-# says: All rows equal the first one|to the first seed
+# says: this
 # -     for seed in seeds:
 # -         run = Run(experiment, seed)
 # +     for _ in seeds:
@@ -627,7 +612,7 @@ def sizes(parameters):
 
 # %% places_for_seeds loses 5.5
 # Uses the seeds 0, 1, ... instead of those that are given.
-# says: have the seeds 0 and 1
+# says: this
 # -     for seed in seeds:
 # +     for seed in range(len(seeds)):
 
@@ -641,7 +626,7 @@ def sizes(parameters):
 
 # %% folder_above_missing loses 5.5
 # Does not make the folders above the folder, but they should be made if they do not exist.
-# says: mkdir\(exist_ok=True\)
+# says: this
 # -     Path(folder).mkdir(parents=True, exist_ok=True)
 # -     experiment = config.load(experiment_file)
 # +     Path(folder).mkdir(exist_ok=True)
@@ -650,7 +635,7 @@ def sizes(parameters):
 
 # %% a_folder_for_each_seed loses 5.5
 # Leaves the files of each run in a folder of its own, but they should all be in the folder that is given.
-# says: left no file
+# says: this
 # -         evolve(run, Path(folder), steps)
 # +         own = Path(folder) / str(seed)
 # +         own.mkdir(exist_ok=True)
@@ -659,7 +644,7 @@ def sizes(parameters):
 
 # %% best_walker_first loses 5.5
 # Returns the walkers with the best one first, but the order of `seeds` is asked for.
-# says: in another order than the seeds
+# says: this
 # -         walkers.append(run.record.bestg)
 # -     return np.array(walkers)
 # +         walkers.append((-run.record.bestg_fitness, seed, run.record.bestg))
@@ -668,7 +653,7 @@ def sizes(parameters):
 
 # %% three_walkers_at_most loses 5.7
 # Makes a table of three rows and columns at most, but each walker should have a row and a column.
-# says: 3, 3
+# says: this
 # -                 for body in walkers
 # -             ]
 # -             for brain in walkers
@@ -698,35 +683,35 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 
 # %% own_body_among_the_brains_others loses 5.8
 # Counts the own body among a brain's others for "brains", but it should be left out.
-# says: own place is counted
+# says: this
 # -         "brains": own - (matrix.sum(axis=1) - own) / (n - 1),
 # +         "brains": own - matrix.mean(axis=1),
 
 
 # %% the_other_diagonal loses 5.8
 # Takes the diagonal from the lower left to the upper right instead of the one from the upper left.
-# says: the other diagonal
+# says: this
 # -     own = np.diagonal(matrix)
 # +     own = np.diagonal(matrix[:, ::-1])
 
 
 # %% share_at_home loses 5.8
 # Returns the share of the brains that are at home instead of their number.
-# says: share of the brains
+# says: this
 # -         "at home": int(np.sum(own > others.max(axis=1))),
 # +         "at home": float(np.mean(own > others.max(axis=1))),
 
 
 # %% loss_of_brains_as_a_share loses 5.8
 # Divides the loss of the brains by their own return, but the difference itself is asked for.
-# says: divided by the own return
+# says: this
 # -         "brains": own - (matrix.sum(axis=1) - own) / (n - 1),
 # +         "brains": 1 - (matrix.sum(axis=1) - own) / (n - 1) / own,
 
 
 # %% densities_of_the_angles loses 5.1
 # Takes the parameters of the default angles for the densities, whose own are at the places 53 to 63.
-# says: from place 42 on, but they begin at place 53
+# says: this
 def sizes(parameters):
     t = np.tanh(parameters)
     lengths = 0.8 + 0.72 * t[:22:2]
@@ -741,7 +726,7 @@ def sizes(parameters):
 
 # %% smaller_in_amount loses 5.2
 # Takes the limit with the smaller amount for the lower one, but the more negative one should be the lower one.
-# says: amounts of the limits are compared
+# says: this
 def joints(parameters):
     limits = (np.pi / 2 * np.clip(parameters[22:42], -1, 1)).reshape(10, 2)
     lower, upper = [], []
@@ -761,7 +746,7 @@ def joints(parameters):
 
 # %% torso_without_angle loses 5.2
 # Sets the default angle of the torso to 0, but it should come from its parameter.
-# says: torso's default angle is 0
+# says: this
 def joints(parameters):
     clipped = np.clip(parameters, -1, 1)
     pairs = np.sort(clipped[22:42].reshape(10, 2) * np.pi / 2, axis=1)
@@ -772,7 +757,7 @@ def joints(parameters):
 
 # %% sorted_over_the_joints loses 5.2
 # Sorts the limits from joint to joint instead of the two of each joint.
-# says: each joint has its own two
+# says: this
 def joints(parameters):
     clipped = np.clip(parameters, -1, 1)
     pairs = np.sort(clipped[22:42].reshape(10, 2) * np.pi / 2, axis=0)
@@ -782,7 +767,7 @@ def joints(parameters):
 
 # %% next_from_the_left_corner loses 5.3
 # Lets the next segment begin at the left corner of the end, but it should begin in the middle of the end.
-# says: begins at the left corner
+# says: this
 def outline(parameters):
     s = sizes(parameters)
     heads = np.cumsum(joints(parameters)["angles"])
@@ -798,7 +783,7 @@ def outline(parameters):
 
 # %% torso_angle_twice loses 5.3
 # Counts the torso's angle twice from segment 1 on, and each other angle one segment too late.
-# says: the sum of all default angles up to its own
+# says: this
 def outline(parameters):
     size, angle = sizes(parameters), joints(parameters)["angles"]
     x, y, h = 0.0, 0.0, angle[0]
@@ -815,21 +800,21 @@ def outline(parameters):
 
 # %% torso_begins_at_the_end loses 5.3
 # Lets the torso begin where the last segment ends, but it should begin at (0, 0).
-# says: Segment 0 begins at .*, but it should begin at
+# says: this
 # -     beginnings = np.vstack([[0.0, 0.0], ends[:-1]])
 # +     beginnings = np.roll(ends, 1, axis=0)
 
 
 # %% one_corner_of_each loses 5.4
 # Measures width and height with the first corner of each segment only, but all four should count.
-# says: Only the first corner of each segment
+# says: this
 # -     width, height = np.ptp(outline(parameters), axis=(0, 1))
 # +     width, height = np.ptp(outline(parameters)[:, 0], axis=0)
 
 
 # %% freedom_beyond_the_limits loses 5.4
 # Takes the freedom from parameters that are not cut off at -1 and 1, but they should be.
-# says: not cut off at -1 and 1
+# says: this
 def describe(parameters):
     s, o = sizes(parameters), outline(parameters)
     x, y = o[:, :, 0], o[:, :, 1]
@@ -845,14 +830,14 @@ def describe(parameters):
 
 # %% means_forgotten loses 5.6
 # Lets 35 numbers follow the body, but 35 means and 35 deviations follow it.
-# says: stands before the last 70\.|35 places too late
+# says: this
 # -     return genotype[-2 * OBSERVATIONS - BODY : -2 * OBSERVATIONS]
 # +     return genotype[-OBSERVATIONS - BODY : -OBSERVATIONS]
 
 
 # %% seed_of_the_row loses 5.7
 # Evaluates each row with a seed of its own, but all pairs should have the same seed.
-# says: Each row has a seed of its own
+# says: this
 def cross_evaluate(experiment_file, walkers, seed, episodes):
     n = len(walkers)
     m = np.zeros((n, n))
@@ -865,7 +850,7 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 
 # %% nothing_on_the_diagonal loses 5.7
 # Leaves 0 on the diagonal, but each brain should be evaluated in its own body, too.
-# says: The diagonal is left out
+# says: this
 def cross_evaluate(experiment_file, walkers, seed, episodes):
     n = len(walkers)
     matrix = np.zeros((n, n))
@@ -882,14 +867,14 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 
 # %% steps_shared loses 5.5
 # Shares the steps among the runs, but each run should have all of them.
-# says: steps are shared among the runs
+# says: this
 # -         evolve(run, Path(folder), steps)
 # +         evolve(run, Path(folder), steps // len(seeds) if steps else None)
 
 
 # %% losses_column_by_column loses 5.8
 # Subtracts each return from the own return of its column for "brains", but the own return of its row is asked for.
-# says: own - matrix pairs them
+# says: this
 def loss(matrix):
     n = len(matrix)
     d = np.diag(matrix)
@@ -926,7 +911,7 @@ def loss(matrix):
 
 # %% middle_as_a_fifth_corner loses 5.3
 # Adds the middle of each segment as a fifth corner, but only its four corners are asked for.
-# says: five places for each segment|fifth corner
+# says: this
 # -     return np.stack([beginnings - side, ends - side, ends + side, beginnings + side], axis=1)
 # +     return np.stack(
 # +         [beginnings - side, ends - side, ends + side, beginnings + side, (beginnings + ends) / 2],
@@ -957,7 +942,7 @@ def loss(matrix):
 
 # %% lengths_without_tanh loses 5.1
 # Leaves tanh out in the lengths: uses the parameters themselves.
-# says: tanh is left out|Leaves tanh out
+# says: this
 # -     lengths, thicknesses = 0.8 * scales[:, 0], 0.2 * scales[:, 1]
 # +     lengths, thicknesses = 0.8 + 0.72 * parameters[:22:2], 0.2 * scales[:, 1]
 
@@ -976,7 +961,7 @@ def loss(matrix):
 
 # %% all_files_of_the_folder loses 5.5
 # Returns the walkers of all files in the folder, ordered by name, but those of `seeds` in their order are asked for.
-# says: whatever else is in the folder
+# says: this
 def evolve_walkers(
     experiment_file: str, seeds: list[int], folder: str, steps: int | None = None
 ) -> np.ndarray:
