@@ -158,7 +158,7 @@ def evaluated(rng, means, at_first=False):
     """Arguments of success_of; at_first: the first post-evaluation comes before the training."""
     n = len(means)
     steps = np.cumsum(rng.integers(200, 3000, n))
-    noise = rng.permuted(np.tile([-9.0, -2.0, 0.0, 3.0, 8.0], (n, 1)), axis=1)
+    noise = rng.permuted(np.tile([-9.0, -3.0, 1.0, 3.0, 8.0], (n, 1)), axis=1)
     return steps - steps[0] * at_first, np.reshape(means, (n, 1)) + noise, 100.0
 
 
@@ -314,7 +314,7 @@ def watched(rng, missing):
     indicators, chosen, steps = {}, {}, np.arange(100, 3001, 100)
     for number, name in enumerate(NAMES):
         late, values = round(rng.normal(), 3), rng.normal(0, 60, 30)
-        values[20:] = late + 0.25 * (-1.0) ** np.arange(10)
+        values[20:] = late + 0.5 * (np.arange(10) - 4.5)
         kept = slice(20 if number < missing else None)  # not logged in the last third
         if number >= missing or number % 2 == 0:
             indicators[name] = {"steps": steps[kept], "values": values[kept]}
@@ -337,8 +337,8 @@ relating = exercise.task("14.7", "Which indicators go with success?")
 @close(relating, 4, "rank_correlation")
 def correlates_the_ranks(rng):
     for n in (5, 12, 40):
-        first = rng.normal(size=n).round(3)
-        yield first, np.exp(3 * (first + rng.normal(size=n))).round(6)
+        first = rng.normal(size=n)
+        yield first, np.exp(3 * (first + rng.normal(size=n)))
 
 
 @close(relating, 4, "rank_correlation")

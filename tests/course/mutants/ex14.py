@@ -795,13 +795,6 @@ def within_variants(numbers, variants):
 # +         late = logged["values"][-1] if len(logged["values"]) else None
 
 
-# %% limit_gives_a_sign loses 14.6
-# Counts a mean that equals the limit as a sign, but it should give none.
-# says: this
-# -         if late is not None and (late > limit if side == "above" else late < limit):
-# +         if late is not None and (late >= limit if side == "above" else late <= limit):
-
-
 # %% argsort_for_ranks loses 14.7
 # Correlates positions as np.argsort gives them: these say where the smallest number stands, and so on, but are not ranks.
 # says: this
