@@ -25,8 +25,11 @@ import psutil
 import pytest
 
 import building
+from botschool.errors import BotschoolError
 from botschool.grading.judge.submission import grade_task
 from botschool.grading.run.confined import fork_server
+from botschool.rl.folder import RunFolder
+from botschool.rl.settings import Settings
 from botschool.sandbox import process, seccomp
 
 pytestmark = pytest.mark.course
@@ -306,46 +309,19 @@ def test_there_are_enough():
     assert len(KINDS) >= 28
 
 
-# --- Hostile files that a grader reads itself.
+# --- A hostile file in the folder of a training.
 
 
-ALIASES = """
-import os
-
-
-def train_variations(environment, variations, seeds, steps, folder, evaluations, episodes):
+def test_aliases_do_not_hold_up_whoever_reads_it(tmp_path):
+    """A YAML file: lists of lists of lists that are all the same one."""
     lines = ["l0: &l0 [0, 0]"]
     lines += [f"l{n}: &l{n} [{', '.join([f'*l{n - 1}'] * 400)}]" for n in range(1, 8)]
-    lines += [f"{name}: *l7" for name in NAMES]
-    records = []
-    for name in variations:
-        for seed in seeds:
-            place = os.path.join(folder, name, "ppo", "1")
-            os.makedirs(place, exist_ok=True)
-            for file in ("evaluations.npz", "config.yaml"):
-                with open(os.path.join(place, file), "w") as stream:
-                    stream.write("\\n".join(lines))
-            records.append({"variant": name, "seed": seed, "return": 0.0, "folder": place})
-    return records
-"""
-
-
-def test_aliases_do_not_hold_up_the_grader(tmp_path, monkeypatch):
-    """14.1's grader reads a YAML file: lists of lists of lists that are all the same one."""
-    pytest.importorskip("stable_baselines3")
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))  # the grader keeps files of its own
-    from botschool.rl.settings import Settings
-
-    loaded = building.exercise(14)
-    names = [field.name for field in dataclasses.fields(Settings)]
-    text = building.inserted(building.source(14).skeleton, f"NAMES = {names}\n{ALIASES}")
-    file = building.write(tmp_path, 14, text)
+    lines += [f"{field.name}: *l7" for field in dataclasses.fields(Settings)]
+    (tmp_path / "config.yaml").write_text("\n".join(lines))
     start = time.process_time()
-    with fork_server(loaded.imports) as server:
-        result = grade_task(loaded.find("14.1"), file, server)
-    assert result.points == 0
-    assert "has an alias" in result.message
-    assert time.process_time() - start < 10  # of this process: minutes without a limit
+    with pytest.raises(BotschoolError, match="has an alias"):
+        RunFolder(tmp_path).settings()
+    assert time.process_time() - start < 10  # minutes without a limit
 
 
 AGAIN = """

@@ -1367,15 +1367,6 @@ def table_of(runs, baseline):
 # +     ways = np.array([(0, *rest) for rest in combinations(range(1, n + m), n - 1)])
 
 
-# %% nan_for_nothing_but_nan loses 14.6
-# Gives NaN instead of None for a part that holds nothing but NaN.
-# says: this
-# -         these = values[inside & ~np.isnan(values)]
-# -         means.append(float(these.mean()) if len(these) else None)
-# +         these = values[inside]
-# +         means.append(float(np.nanmean(these)) if len(these) else None)
-
-
 # %% last_sign_of_an_indicator loses 14.6
 # Gives only the last of the signs of the same indicator, but each sign should count for itself.
 # says: this
