@@ -179,8 +179,10 @@ def acted(module, outputs, space):
     import numpy
     from gymnasium import spaces
 
-    limits = map(numpy.float32, space.values())
-    made = spaces.Discrete(**space) if "n" in space else spaces.Box(*limits)
+    if "n" in space:
+        made = spaces.Discrete(**space)
+    else:
+        made = spaces.Box(*(numpy.float32(space[side]) for side in ("low", "high")))
     return [[module.act(y, made) for y in outputs], outputs]
 
 

@@ -2,7 +2,7 @@
 
 # %% random_biases loses 2.1
 # Draws the biases at random, but all of them should be 0.
-# says: b1 should be all zeros
+# says: this
 _parameters = parameters
 
 
@@ -36,7 +36,7 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 # %% variance_for_deviation loses 2.1
 # Takes 0.1 as the variance, so that the weights are three times too large, but it should be the standard deviation.
-# says: standard deviation 0\.3
+# says: this
 # -         "W1": 0.1 * rng.standard_normal((nhiddens, ninputs)),
 # +         "W1": rng.normal(0, 0.1**0.5, (nhiddens, ninputs)),
 # -         "W2": 0.1 * rng.standard_normal((noutputs, nhiddens)),
@@ -45,14 +45,14 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 # %% biases_forgotten loses 2.2
 # Leaves out the biases b1 and b2, but they should be added before tanh.
-# says: The biases are left out
+# says: this
 def forward(network, observation):
     return np.tanh(network["W2"] @ np.tanh(network["W1"] @ observation))
 
 
 # %% linear_outputs loses 2.2
 # Leaves out tanh at the outputs, but both layers should have it.
-# says: tanh is left out at the outputs
+# says: this
 # -     return np.tanh(network["W2"] @ hidden + network["b2"])
 # +     return network["W2"] @ hidden + network["b2"]
 
@@ -84,7 +84,7 @@ def sizes(environment_id):
 
 # %% raw_outputs loses 2.4
 # Returns the outputs for a Box as they are, but they should be stretched to the limits of the space.
-# says: stretched to the space's limits
+# says: this
 # -     low, high = action_space.low, action_space.high
 # -     return (low + (outputs + 1) / 2 * (high - low)).astype(action_space.dtype)
 # +     return np.asarray(outputs, dtype=np.float32)
@@ -125,7 +125,7 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 
 # %% never_stops loses 2.5
 # Does all maxsteps steps, but it should stop when the episode is terminated or truncated.
-# says: is over after 10 steps
+# says: this
 # -     terminated = truncated = False
 # -     while len(actions) < maxsteps and not (terminated or truncated):
 # +     for _ in range(maxsteps):
@@ -157,7 +157,7 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 
 # %% sum_of_returns loses 2.6
 # Gives the sum of the returns, but their mean is asked for.
-# says: It is the sum of the returns
+# says: this
 def fitness(environment_id, network, seeds, maxsteps=200):
     return sum(run_episode(environment_id, network, seed, maxsteps)["return"] for seed in seeds)
 
@@ -227,14 +227,14 @@ def random_search(environment_id, nnetworks, nhiddens, seed):
 
 # %% second_layer_from_the_next_seed loses 2.1
 # Draws W2 with seed + 1, so that it has the numbers of W1 in the network of the next seed, but two seeds should have no weight in common.
-# says: are also in the network of seed
+# says: this
 # -         "W2": 0.1 * rng.standard_normal((noutputs, nhiddens)),
 # +         "W2": 0.1 * np.random.default_rng(seed + 1).standard_normal((noutputs, nhiddens)),
 
 
 # %% counts_up_to_the_last_choice loses 2.3
 # Gives start + n outputs for a Discrete space, but one for each of its n choices is asked for.
-# says: start=5
+# says: this
 # -     return ninputs, int(actions.n) if isinstance(actions, spaces.Discrete) else actions.shape[0]
 # +     if isinstance(actions, spaces.Discrete):
 # +         return ninputs, int(actions.start + actions.n)
@@ -253,7 +253,7 @@ def random_search(environment_id, nnetworks, nhiddens, seed):
 
 # %% stretches_in_place loses 2.4
 # Changes the array `outputs` that it is given, but that should stay as it is.
-# says: it should stay as it is
+# says: the outputs, afterwards,
 # -     low, high = action_space.low, action_space.high
 # -     return (low + (outputs + 1) / 2 * (high - low)).astype(action_space.dtype)
 # +     outputs += 1
@@ -264,14 +264,14 @@ def random_search(environment_id, nnetworks, nhiddens, seed):
 
 # %% each_seed_once loses 2.6
 # Counts a seed that comes twice only once, but it should count twice.
-# says: seeds=
+# says: this
 # -     returns = [run_episode(environment_id, network, seed, maxsteps)["return"] for seed in seeds]
 # +     returns = [run_episode(environment_id, network, s, maxsteps)["return"] for s in set(seeds)]
 
 
 # %% biases_reshaped_in_place loses 2.7
 # Changes the shape of the biases that it is given, but the arrays given should stay as they are.
-# says: of what it was given
+# says: changed its argument number 1
 def forward_batch(networks, observations):
     values = observations[:, :, None]
     for layer in "12":
@@ -283,7 +283,7 @@ def forward_batch(networks, observations):
 
 # %% better_than_zero loses 2.8
 # Gives network 0 as the best where no fitness is above 0, but the highest should win, even if all are negative.
-# says: should be
+# says: this
 # -     return {"networks": networks, "fitness": measured, "best": int(np.argmax(measured))}
 # +     best, highest = 0, 0
 # +     for number, value in enumerate(measured):
@@ -396,7 +396,7 @@ def random_search(environment_id, nnetworks, nhiddens, seed):
 
 # %% network_remembered loses 2.1
 # Returns the arrays of an earlier call again, with what was changed in them since, but each call should make new ones.
-# says: gives the changed arrays
+# says: this
 _parameters, _networks = parameters, {}
 
 
@@ -485,7 +485,6 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 # %% draws_among_equals loses 2.4
 # Draws one of several equal outputs at random, but the lowest number is asked for.
-# says: another answer: by chance
 # -         return int(action_space.start + np.argmax(outputs))
 # +         equal = np.flatnonzero(outputs == np.max(outputs))
 # +         return int(action_space.start + np.random.default_rng().choice(equal))
@@ -577,14 +576,14 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 # %% seeds_from_one loses 2.8
 # Gives network i the parameters of seed + i + 1, but those of seed + i are asked for.
-# says: network i should have
+# says: this
 # -     networks = [parameters(ninputs, nhiddens, noutputs, seed + i) for i in range(nnetworks)]
 # +     networks = [parameters(ninputs, nhiddens, noutputs, seed + i) for i in range(1, nnetworks + 1)]
 
 
 # %% beats_minus_2000 loses 2.8
 # Gives network 0 as the best where every fitness is below some start value (such as -2000), but the highest should win, however low it is.
-# says: all returns are
+# says: minus the number of the highest
 # -     return {"networks": networks, "fitness": measured, "best": int(np.argmax(measured))}
 # +     best, highest = 0, -2000.0
 # +     for i, value in enumerate(measured):
@@ -645,7 +644,7 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 # %% subtracts_the_biases loses 2.2
 # Subtracts the biases, but they should be added.
-# says: The biases are subtracted
+# says: this
 # -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
 # -     return np.tanh(network["W2"] @ hidden + network["b2"])
 # +     hidden = np.tanh(network["W1"] @ observation - network["b1"])
@@ -654,7 +653,7 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 # %% even_weights_up_to_a_tenth loses 2.1
 # Draws evenly distributed (uniform) weights between -0.1 and 0.1, but Gaussian ones with standard deviation 0.1 are asked for.
-# says: evenly distributed
+# says: this
 # -         "W1": 0.1 * rng.standard_normal((nhiddens, ninputs)),
 # +         "W1": rng.uniform(-0.1, 0.1, (nhiddens, ninputs)),
 # -         "W2": 0.1 * rng.standard_normal((noutputs, nhiddens)),
@@ -663,21 +662,21 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 # %% fitness_for_its_number loses 2.8
 # Gives the fitness of the best network as best, but its number is asked for.
-# says: but its number is asked for
+# says: this
 # -     return {"networks": networks, "fitness": measured, "best": int(np.argmax(measured))}
 # +     return {"networks": networks, "fitness": measured, "best": float(np.max(measured))}
 
 
 # %% hidden_neurons_of_the_first loses 2.7
 # Uses the hidden neurons of network 0 for the outputs of all networks, but each has hidden neurons of its own.
-# says: hidden neurons of network 0
+# says: this
 # -     return np.tanh((networks["W2"] @ hidden[:, :, None])[:, :, 0] + networks["b2"])
 # +     return np.tanh(networks["W2"] @ hidden[0] + networks["b2"])
 
 
 # %% a_tenth_for_the_mean loses 2.1
 # Draws the weights with mean 0.1 and standard deviation 1, but mean 0 and standard deviation 0.1 are asked for.
-# says: not the mean
+# says: this
 # -         "W1": 0.1 * rng.standard_normal((nhiddens, ninputs)),
 # +         "W1": rng.normal(0.1, size=(nhiddens, ninputs)),
 # -         "W2": 0.1 * rng.standard_normal((noutputs, nhiddens)),
@@ -686,7 +685,7 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 # %% bias_for_each_input loses 2.2
 # Adds a neuron's bias once for each of its inputs, but it should be added only once.
-# says: once for each of its inputs
+# says: this
 def forward(network, observation):
     values = observation
     for layer in "12":
@@ -701,28 +700,28 @@ def forward(network, observation):
 
 # %% start_subtracted_from_the_choices loses 2.3
 # Gives n - start outputs for a Discrete space, but one for each of its n choices is asked for.
-# says: The start of the space is subtracted
+# says: this
 # -     return ninputs, int(actions.n) if isinstance(actions, spaces.Discrete) else actions.shape[0]
 # +     return ninputs, int(actions.n - actions.start) if isinstance(actions, spaces.Discrete) else actions.shape[0]
 
 
 # %% first_output_stretched_over_the_choices loses 2.4
 # Looks at the first output alone, stretched over the choices and rounded, but the most active output should decide.
-# says: The first output alone decides
+# says: this
 # -         return int(action_space.start + np.argmax(outputs))
 # +         return int(action_space.start + round((outputs[0] + 1) / 2 * (action_space.n - 1)))
 
 
 # %% last_of_equal_outputs loses 2.4
 # Lets the last of equal outputs decide, but the first of them should.
-# says: the first one should decide
+# says: this
 # -         return int(action_space.start + np.argmax(outputs))
 # +         return int(action_space.start + len(outputs) - 1 - np.argmax(outputs[::-1]))
 
 
 # %% weights_reshaped loses 2.7
 # Reshapes the weights where rows and columns should be exchanged (a transpose): reshape puts each weight into another place.
-# says: The weights are reshaped
+# says: this
 def forward_batch(networks, observations):
     values = observations[:, None, :]
     for layer in "12":
@@ -734,28 +733,28 @@ def forward_batch(networks, observations):
 
 # %% seeds_from_zero_to_nine loses 2.8
 # Measures with the seeds 0 to 9, whatever the seed is, but those from seed to seed + 9 are asked for.
-# says: the seeds 0 to 9
+# says: this
 # -     seeds = list(range(seed, seed + 10))
 # +     seeds = list(range(10))
 
 
 # %% weights_cut_off loses 2.1
 # Cuts the weights in W1 off at -0.1 and 0.1, but Gaussian numbers have no limits.
-# says: Gaussian numbers have no limits
+# says: this
 # -         "W1": 0.1 * rng.standard_normal((nhiddens, ninputs)),
 # +         "W1": np.clip(0.1 * rng.standard_normal((nhiddens, ninputs)), -0.1, 0.1),
 
 
 # %% weights_without_sign loses 2.1
 # Takes the absolute values of the weights in W1, but Gaussian numbers with mean 0 can be negative.
-# says: None of them is negative
+# says: this
 # -         "W1": 0.1 * rng.standard_normal((nhiddens, ninputs)),
 # +         "W1": 0.1 * np.abs(rng.standard_normal((nhiddens, ninputs))),
 
 
 # %% softmax_outputs loses 2.2
 # Uses softmax at the outputs, so that they sum up to 1, but tanh is asked for.
-# says: softmax
+# says: this
 # -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
 # -     return np.tanh(network["W2"] @ hidden + network["b2"])
 # +     hidden = np.tanh(network["W1"] @ observation + network["b1"])
@@ -765,14 +764,14 @@ def forward_batch(networks, observations):
 
 # %% squeezed_inputs loses 2.2
 # Puts the inputs through tanh, too, but only the sums of the neurons should go through it.
-# says: The inputs go through tanh
+# says: this
 # -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
 # +     hidden = np.tanh(network["W1"] @ np.tanh(observation) + network["b1"])
 
 
 # %% negative_outputs_cut_off loses 2.4
 # Takes outputs below 0 as 0, but all outputs from -1 to 1 should be stretched.
-# says: Outputs below 0 are cut off
+# says: this
 # -     return (low + (outputs + 1) / 2 * (high - low)).astype(action_space.dtype)
 # +     return (low + np.clip(outputs, 0, 1) * (high - low)).astype(action_space.dtype)
 
@@ -795,7 +794,7 @@ def forward_batch(networks, observations):
 
 # %% last_step_not_written_down loses 2.5
 # Leaves out the action and the reward of the step that ends the episode, but both should count.
-# says: ends the episode of this seed
+# says: this
 _run_episode_2 = run_episode
 
 
@@ -847,14 +846,14 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 
 # %% logistic_outputs loses 2.2
 # Uses the logistic function at the outputs, but tanh is asked for.
-# says: logistic function where tanh
+# says: this
 # -     return np.tanh(network["W2"] @ hidden + network["b2"])
 # +     return 1 / (1 + np.exp(-(network["W2"] @ hidden + network["b2"])))
 
 
 # %% seeds_from_the_next loses 2.8
 # Measures with the seeds from seed + 1 to seed + 10, but those from seed to seed + 9 are asked for.
-# says: seed \+ 1 to seed \+ 10
+# says: this
 # -     seeds = list(range(seed, seed + 10))
 # +     seeds = list(range(seed + 1, seed + 11))
 
@@ -879,7 +878,7 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 
 # %% same_network_again loses 2.8
 # Gives all networks the parameters of seed itself, but network i should have those of seed + i.
-# says: is the same in some networks|the seed itself
+# says: this
 # -     networks = [parameters(ninputs, nhiddens, noutputs, seed + i) for i in range(nnetworks)]
 # +     networks = [parameters(ninputs, nhiddens, noutputs, seed) for i in range(nnetworks)]
 
@@ -927,7 +926,7 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 
 # %% one_output_decides_between_two loses 2.3
 # Gives one output for two choices, but one for each choice is asked for.
-# says: Each choice of a Discrete space needs an output \(2 in all\)
+# says: sizes\('CartPole-v1'\)
 # -     return ninputs, int(actions.n) if isinstance(actions, spaces.Discrete) else actions.shape[0]
 # +     if isinstance(actions, spaces.Discrete):
 # +         return ninputs, 1 if actions.n == 2 else int(actions.n)
@@ -991,7 +990,7 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 # %% weights_of_exact_mean loses 2.1
 # Subtracts their mean from the weights, so that they sum up to 0, but each weight should be drawn on its own.
-# says: sum up to 0
+# says: this
 # -         "W1": 0.1 * rng.standard_normal((nhiddens, ninputs)),
 # -         "b1": np.zeros(nhiddens),
 # -         "W2": 0.1 * rng.standard_normal((noutputs, nhiddens)),
