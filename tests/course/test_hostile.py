@@ -28,6 +28,7 @@ import building
 from botschool.errors import BotschoolError
 from botschool.grading.judge.submission import grade_task
 from botschool.grading.run.confined import fork_server
+from botschool.grading.run.ours import ours_of
 from botschool.rl.folder import RunFolder
 from botschool.rl.settings import Settings
 from botschool.sandbox import process, seccomp
@@ -141,15 +142,18 @@ def graders(servers):
     """The exercises, whose solutions have been graded once: some graders make files of their own
     then, and keep them (exercise 14 trains agents)."""
     found = {number: building.exercise(number) for number in EXERCISES}
-    with pytest.MonkeyPatch.context() as patch:
+    with pytest.MonkeyPatch.context() as patch, contextlib.ExitStack() as stack:
         patch.setenv("BOTSCHOOL_GRADING_SEED", SECRET)
         for number, exercise in found.items():
+            exercise.ours = ours_of(exercise, servers[number])
+            stack.callback(exercise.ours.close)
             one = building.source(number)
             file = building.ROOT / "solutions" / one.folder / one.file
             for task in exercise.tasks:
                 result = grade_task(task, file, servers[number])
                 assert result.points == task.max_points, result
-    return found
+        patch.undo()
+        yield found
 
 
 @pytest.fixture(scope="module")
