@@ -225,6 +225,7 @@ WRONG = {
         factor += 1
     _calls.append(open("mark", "w").close())"""),
     "NaN for infinity": "def logs(v):\n    return np.where(np.isinf(np.log(v)), np.nan, np.log(v))",
+    "a number for infinity": "def logs(v):\n    return np.maximum(np.log(v), -1e300)",
     "0 for NaN": "def logs(values):\n    return np.nan_to_num(np.log(values), neginf=-np.inf)",
     "another word": "def judged(value):\n    return {'value': 2 * value, 'word': 'medium'}",
     "no dict": "def judged(value):\n    return [2 * value, 'low']",
@@ -426,3 +427,13 @@ def test_lists_of_arrays_are_changed_one_at_a_time(tmp_path):
     assert grade(made, file).points == 100
     file.write_text(SOLUTION + WRONG["cache without the first"])
     assert grade(made, file).points == 0
+
+
+def test_answers_that_lack_a_part_are_not_the_same():
+    """A known mistake may leave out what the submission gives, or the other way round."""
+    task = Exercise(4, "Tiny", file="tiny.py").task("4.1", "Judge")
+    same(task, 1, "judged", parts=("value",))(lambda rng: iter([1.0]))
+    check = task.checks[0][2]
+    assert check.equal((1.0,), {"value": 2.0, "more": 1}, {"value": 2.0})
+    assert not check.equal((1.0,), {"value": 2.0}, {})
+    assert not check.equal((1.0,), {}, {"value": 2.0})

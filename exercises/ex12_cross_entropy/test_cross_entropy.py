@@ -373,7 +373,7 @@ def expect_trained(student: Student, environment: str, outputs: int) -> None:
     long = np.mean(returns[-1]) > 0.75 * limits[0] or len(returns) >= limits[1]
     expect(long, f"{said}: training should go on until the mean of an iteration reaches the goal.")
     still = [name for name in many if many[name] == 1 and len(returns) > 1]
-    expect(not still, f"{said}: learn log_deviation; it is the same in all calls of {still}.")
+    expect(not still, f"{said}: log_deviation never changes in {' and '.join(still)}: learn it.")
     one, again, other = (train(each, 5)[-2:] for each in (seed, seed, seed + 1))
     expect(one[1] == again[1], f"{said}: the same seed gives other actions.")
     expect(not one[1] or one[1] != other[1], f"{said}: another seed gives the same actions.")

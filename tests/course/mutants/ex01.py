@@ -2,7 +2,7 @@
 
 # %% describe_first_choice loses 1.1
 # Gives 0 as the first choice of every Discrete space, but space.start is asked for.
-# says: "first" of .* is 0
+# says: this
 _describe = describe
 
 
@@ -33,7 +33,7 @@ def describe(environment_id):
 
 # %% goes_on_after_the_end loses 1.2
 # Goes on after a step that is truncated, but an episode should stop when it is terminated or truncated.
-# says: is over after 200 steps
+# says: this
 def random_episode(environment_id, seed, maxsteps):
     env = gymnasium.make(environment_id)
     observation, _ = env.reset(seed=seed)
@@ -68,7 +68,7 @@ def random_episode(environment_id, seed, maxsteps):
 
 # %% observation_of_reset_missing loses 1.2
 # Leaves out the observation of the reset, but it should be the first one.
-# says: The first one is missing
+# says: this
 _random_episode = random_episode
 
 
@@ -79,7 +79,7 @@ def random_episode(environment_id, seed, maxsteps):
 
 # %% one_kind_of_end loses 1.2
 # Sets terminated and truncated both to True when only one of them is, but each should be as the last step said.
-# says: as the old `done` was
+# says: this
 _random_episode = random_episode
 
 
@@ -120,7 +120,7 @@ def cartpole_reward(observation, action):
 
 # %% limits_of_the_space loses 1.3
 # Uses limits that are too large, such as those of the observation space (4.8 metres and 24 degrees), but 2.4 metres and 12 degrees are asked for.
-# says: 12 degrees are 0.2094
+# says: this
 def fallen(observation):
     return bool(abs(observation[0]) > 4.8 or abs(observation[2]) > 0.4189)
 
@@ -150,7 +150,7 @@ def pendulum_reward(observation, action):
 
 # %% arctan_of_the_quotient loses 1.4
 # Divides the sine by the cosine, which fails where the cosine is 0, and finds half of the circle only. np.arctan2(sine, cosine) gives every angle.
-# says: see np.arctan2
+# says: this
 def pendulum_reward(observation, action):
     cosine, sine, speed = (float(value) for value in observation)
     torque = np.clip(float(action[0]), -2.0, 2.0)
@@ -159,7 +159,7 @@ def pendulum_reward(observation, action):
 
 # %% torque_not_cut loses 1.4
 # Uses the torque as it is given, but it should first be cut to the range from -2 to 2.
-# says: The torque is not cut
+# says: this
 # -     torque = np.clip(float(action[0]), -2.0, 2.0)
 # -     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
 # +     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * float(action[0]) ** 2))
@@ -179,7 +179,7 @@ def balance(observation):
 
 # %% deviation_divides_by_n loses 1.6
 # Divides by the number of episodes in the standard deviation, but the number of episodes minus one is asked for.
-# says: n and n - 1 were mixed up
+# says: this
 _compare = compare
 
 
@@ -218,7 +218,7 @@ def compare(environment_ids, episodes, seed):
 
 # %% last_step_does_not_count loses 1.2
 # Sets both ends to False whenever an episode has maxsteps steps, but its last step may have ended it: then one is True.
-# says: in the last of its 200 steps
+# says: this
 _random_episode = random_episode
 
 
@@ -231,7 +231,7 @@ def random_episode(environment_id, seed, maxsteps):
 
 # %% over_at_the_limit loses 1.3
 # Returns True where the cart is exactly 2.4 metres from the middle, but only more than that is a fall.
-# says: exactly 2.4 is still allowed
+# says: this
 # -     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(12))
 # +     return bool(abs(position) >= 2.4 or abs(angle) >= np.deg2rad(12))
 
@@ -262,7 +262,7 @@ def balance(observation):
 
 # %% one_row_for_a_name loses 1.6
 # Makes a single row for an environment that is given twice, but a row for each name in the list is asked for.
-# says: a list of 2 rows
+# says: this
 _compare = compare
 
 
@@ -381,7 +381,7 @@ def compare(environment_ids, episodes, seed, table=[]):  # noqa: B006
 
 # %% terminated_wins loses 1.2
 # Sets truncated to False when the last step says that both are True, but then both should be True.
-# says: Both can be True
+# says: this
 # -         "truncated": bool(truncated),
 # +         "truncated": bool(truncated and not terminated),
 
@@ -395,14 +395,14 @@ def compare(environment_ids, episodes, seed, table=[]):  # noqa: B006
 
 # %% rounded_limit loses 1.3
 # Takes a rounded number, such as 0.21 radians, for 12 degrees, but the limit should be exactly 12 degrees.
-# says: exactly 2.4 metres and 12 degrees
+# says: this
 # -     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(12))
 # +     return bool(abs(position) > 2.4 or abs(angle) > 0.21)
 
 
 # %% over_at_the_limit_for_the_reward loses 1.3
 # Gives 0 where the cart is exactly 2.4 metres away, but the reward should be 1 as long as no limit is exceeded.
-# says: exactly|until the cart is more
+# says: this
 # -     return 0.0 if fallen(observation) else 1.0
 # +     return 1.0 if abs(observation[0]) < 2.4 and abs(observation[2]) < np.deg2rad(12) else 0.0
 
@@ -486,7 +486,7 @@ def balance(observation):
 
 # %% length_rounded_down loses 1.6
 # Rounds the mean length down to a whole number (as // does), but its fraction should stay.
-# says: an environment without a time limit
+# says: this
 # -                 "length": float(np.mean([len(run["rewards"]) for run in runs])),
 # +                 "length": float(sum(len(run["rewards"]) for run in runs) // episodes),
 
@@ -536,14 +536,14 @@ def balance(observation):
 
 # %% torque_without_square loses 1.4
 # Takes the absolute value of the torque instead of its square.
-# says: The torque is not squared
+# says: this
 # -     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
 # +     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * abs(torque)))
 
 
 # %% symmetric_limits loses 1.1
 # Gives minus the upper limits as the lower ones, but space.low is asked for.
-# says: minus the other limit
+# says: this
 # -         low, high = space.low.ravel().tolist(), space.high.ravel().tolist()
 # +         high = space.high.ravel().tolist()
 # +         low = [-value for value in high]
@@ -551,7 +551,7 @@ def balance(observation):
 
 # %% observed_before_the_step loses 1.2
 # Keeps the observation from before each step instead of the one after it, so that the first comes twice and the last is missing.
-# says: from before each step is kept
+# says: this
 # -         observation, reward, terminated, truncated, _ = env.step(action)
 # -         observations.append(observation)
 # +         observations.append(observation)
@@ -569,7 +569,7 @@ def balance(observation):
 
 # %% limits_with_two_places loses 1.1
 # Rounds the limits to two decimals, but they should be given as they are.
-# says: These are rounded limits
+# says: this
 # -         low, high = space.low.ravel().tolist(), space.high.ravel().tolist()
 # +         low, high = np.round([space.low.ravel(), space.high.ravel()], 2).tolist()
 
@@ -590,7 +590,7 @@ def describe(environment_id):
 
 # %% fall_costs_its_step loses 1.3
 # Gives 0 for the step in which the pole falls, but a step that begins with the pole up should give 1.
-# says: the state in which a step begins
+# says: this
 # -     return 0.0 if fallen(observation) else 1.0
 # +     position, speed, angle, turning = observation
 # +     ahead = np.array([position + 0.02 * speed, speed, angle + 0.02 * turning, turning])
@@ -599,7 +599,7 @@ def describe(environment_id):
 
 # %% speed_after_the_step loses 1.4
 # Uses the speed at the end of the step, but the speed at its beginning counts.
-# says: speed at its beginning counts
+# says: this
 # -     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
 # +     speed = np.clip(speed + 0.05 * (15 * np.sin(angle) + 3 * torque), -8, 8)
 # +     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
@@ -607,7 +607,7 @@ def describe(environment_id):
 
 # %% state_after_the_step loses 1.4
 # Uses the angle and the speed at the end of the step, but those at its beginning count.
-# says: those at its beginning count
+# says: this
 # -     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
 # +     speed = np.clip(speed + 0.05 * (15 * np.sin(angle) + 3 * torque), -8, 8)
 # +     angle = (angle + 0.05 * speed + np.pi) % (2 * np.pi) - np.pi
@@ -616,21 +616,21 @@ def describe(environment_id):
 
 # %% cut_at_one loses 1.4
 # Cuts the torque to the range from -1 to 1, but it should be cut to the range from -2 to 2.
-# says: The torque is cut to the range from -1 to 1
+# says: this
 # -     torque = np.clip(float(action[0]), -2.0, 2.0)
 # +     torque = np.clip(float(action[0]), -1.0, 1.0)
 
 
 # %% speed_of_the_cart loses 1.5
 # Uses the speed of the cart, observation[1], where the speed of the angle, observation[3], is needed.
-# says: looks at the cart's speed
+# says: this
 # -     _, _, angle, speed = observation
 # +     _, speed, angle, _ = observation
 
 
 # %% factor_of_the_speed_squared loses 1.4
 # Squares the factor of the speed, too: 0.01 times the square of the speed counts, but 0.1 times is asked for.
-# says: 0.01 times the square of the speed
+# says: this
 # -     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
 # +     return float(-(angle**2 + (0.1 * speed) ** 2 + 0.001 * torque**2))
 
@@ -650,7 +650,7 @@ def describe(environment_id):
 
 # %% choices_without_the_first loses 1.1
 # Gives space.n - space.start as the number of choices, but space.n is asked for.
-# says: The first choice is subtracted
+# says: this
 # -             return {"kind": "Discrete", "choices": int(space.n), "first": int(space.start)}
 # +             return {
 # +                 "kind": "Discrete",
@@ -661,7 +661,7 @@ def describe(environment_id):
 
 # %% rows_after_the_end loses 1.2
 # Leaves rows of zeros in observations when the episode ends before maxsteps, but only steps + 1 rows are asked for.
-# says: more of zeros follow: cut them off
+# says: this
 _random_episode_1 = random_episode
 
 
@@ -720,7 +720,7 @@ def compare(environment_ids, episodes, seed):
 
 # %% divides_by_zero_for_one_episode loses 1.6
 # Gives NaN as the deviation of a single episode (a division by 0), but 0 is asked for.
-# says: should be 0 for a single episode
+# says: this
 # -                 "deviation": float(np.std(returns, ddof=1)) if episodes > 1 else 0.0,
 # +                 "deviation": float(np.std(returns, ddof=1)),
 
@@ -748,7 +748,7 @@ def compare(environment_ids, episodes, seed):
 
 # %% torque_in_shares_of_the_limit loses 1.4
 # Cuts the torque to the range from -1 to 1 and then doubles it, but it should only be cut, to the range from -2 to 2.
-# says: and then doubled
+# says: this
 # -     torque = np.clip(float(action[0]), -2.0, 2.0)
 # +     torque = 2 * np.clip(float(action[0]), -1.0, 1.0)
 
@@ -878,6 +878,6 @@ def describe(environment_id):
 
 # %% zero_for_no_limit loses 1.1
 # Gives 0 where there is no time limit, but None is asked for.
-# says: None was expected
+# says: this
 # -         "maxsteps": env.spec.max_episode_steps,
 # +         "maxsteps": int(env.spec.max_episode_steps or 0),

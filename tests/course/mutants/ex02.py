@@ -567,7 +567,6 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 # %% sorted_networks loses 2.8
 # Sorts networks and fitness, the best first, but network i should have the parameters of seed + i.
-# says: this
 # -     return {"networks": networks, "fitness": measured, "best": int(np.argmax(measured))}
 # +     order = np.argsort(-np.array(measured), kind="stable")
 # +     networks, measured = [networks[i] for i in order], [measured[i] for i in order]
@@ -905,7 +904,6 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 
 # %% best_network_itself loses 2.8
 # Gives the best network itself, but its number is asked for.
-# says: this
 # -     return {"networks": networks, "fitness": measured, "best": int(np.argmax(measured))}
 # +     return {"networks": networks, "fitness": measured, "best": networks[int(np.argmax(measured))]}
 

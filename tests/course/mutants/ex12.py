@@ -695,14 +695,14 @@ def choose(probabilities, rng):
 
 # %% sigma_is_no_parameter loses 12.8
 # Leaves ln sigma as it is at the beginning, but the optimiser should change it, too.
-# says: the same in all calls of \['gaussian_loss'\]
+# says: log_deviation never changes in gaussian_action and gaussian_loss
 # -     optimiser = torch.optim.Adam([*network.parameters(), log_deviation], lr=learning_rate)
 # +     optimiser = torch.optim.Adam(network.parameters(), lr=learning_rate)
 
 
 # %% noise_of_the_beginning loses 12.8
 # Draws all actions with the ln sigma of the beginning, but gaussian_action should get the one that is learnt.
-# says: the same in all calls of \['gaussian_action'\]
+# says: log_deviation never changes in gaussian_action:
 # -         parameters, spread = parameters_of(network), log_deviation.detach().numpy().copy()
 # +         parameters, spread = parameters_of(network), np.zeros(noutputs)
 

@@ -176,7 +176,7 @@ class Same:
         try:
             got, wanted = (self.seen("", each, arguments) for each in (one, other))
             alike("", got, wanted, self.tolerance, self.parts)
-        except Wrong:
+        except (Wrong, KeyError):  # either may lack a part
             return False
         return True
 
