@@ -298,10 +298,10 @@ XOR = np.array([[0.0], [1.0], [1.0], [0.0]])
 
 @corners.check(5)
 def exclusive_or(student: Student):
-    compare_corners(student, square(0.0, 1.0), XOR, 2, 10)
-    compare_corners(student, square(0.0, 1.0), XOR, 3, 11)
-    corners = square(0.0, 1.0)
-    one, again, other = (expect_learnt(student, corners, XOR, 4, n)[-1] for n in (42, 42, 43))
+    places = square(0.0, 1.0)
+    compare_corners(student, places, XOR, 2, 10)
+    compare_corners(student, places, XOR, 3, 11)
+    one, again, other = (expect_learnt(student, places, XOR, 4, n)[-1] for n in (42, 42, 43))
     expect(np.allclose(one, again, atol=1e-4), "learn, called again, gives other weights.")
     expect(not np.allclose(one, other, atol=1e-4), "learn gives the weights of another seed.")
 
@@ -329,8 +329,6 @@ def other_corners(student: Student):
 
 # ------------------------------------------------------------------- 11.6
 scaling = exercise.task("11.6", "Normalisation")
-
-
 COLUMNS = ("the inputs", "the mean", "the deviation")
 
 
@@ -418,8 +416,9 @@ def not_good_enough(student: Student, index: int, n: int, units, function) -> st
     mean, deviation = (expect_array(said, each, offset.shape) for each in (mean, deviation))
     expect(bool(np.all(deviation != 0)), f"{said}: a deviation is 0, by which it divides.")
     parameters = parameters_of(said, found, len(units), targets.shape[1])
-    hiddens = len(parameters[1])
-    expect(0 < hiddens <= 1000, f"{said}: the network should have 1 to 1000 hidden neurons.")
+    expect(
+        0 < len(parameters[1]) <= 1000, f"{said}: the network should have 1 to 1000 hidden neurons."
+    )
     errors = (outputs_of(parameters, (inputs - mean) / deviation) - targets) ** 2
     seen, unseen = (
         100 * (1 - errors[part].mean(axis=0) / targets[part].var(axis=0))
@@ -485,8 +484,7 @@ def mapped(module, low, high, n, weights, biases):
         def forward(self, patterns):
             return self.output(self.features(patterns))
 
-    made = Features()
-    values = {"weight": torch.tensor(weights), "bias": torch.tensor(biases)}
+    made, values = Features(), {"weight": torch.tensor(weights), "bias": torch.tensor(biases)}
     made.hidden.load_state_dict(values)
     return module.feature_maps(made, low, high, n)
 
