@@ -89,7 +89,7 @@ HOSTILE = {
     "ends": ("import os\ndef double(x): os._exit(0)", "program ended"),
     "equals everything": (
         "class E(list):\n    __eq__ = lambda *a: True\ndef double(x): return E()",
-        "shape",
+        "an empty list",
     ),
     "nan": ("def double(x): return x * float('nan')", "NaN"),
     "strings": ("def double(x): return [str(2 * v) for v in x]", "not an array of numbers"),

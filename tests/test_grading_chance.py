@@ -24,67 +24,6 @@ def message(messages):
 
 
 ROOT = Path(__file__).parents[1]
-CUT = "Values above 3 are cut off."
-
-
-def with_a_table(inputs, others=()):
-    """A check whose table has a mistake, and another check with other inputs."""
-    exercise = Exercise(3, "Three", FILE)
-    first = exercise.task("3.1", "First", seconds=5)
-
-    def compare(student, values):
-        table = {CUT: np.sum(np.minimum(values, 3.0))}
-        expect_close("total(...)", student.call("total", list(values)), np.sum(values), 1e-9, table)
-
-    @first.check(60)
-    def totals(student):
-        for values in inputs:
-            compare(student, values)
-
-    @first.check(40)
-    def other_totals(student):
-        for values in others:
-            compare(student, values)
-
-    exercise.knows("def total(values):\n    return float(sum(values))\n")
-    return exercise
-
-
-ONLY_LONG = "def total(v): return float(sum(min(x, 3.0) for x in v) if len(v) > 3 else sum(v))\n"
-"""Cuts lists of more than three values only."""
-CUT_OR_HALVED = (
-    "def total(v): return float(sum(min(x, 3.0) for x in v) if len(v) > 3 else sum(v) / 2)\n"
-)
-"""Cuts them, and halves the sum of the others."""
-
-
-def test_a_sentence_must_explain_the_wrong_answers_of_other_checks(message):
-    """It fitted both scenes of one check, but no answer of the check before."""
-    cut = [[1.0, 5.5, 7.25, 2.0], [9.0, 0.5, 4.75, 1.0, 8.5]]
-    halved = [[4.0, 5.5], [8.25, 1.0]]
-    told = message(CUT_OR_HALVED, with_a_table(halved, cut))
-    assert "total(...)" in told and CUT not in told
-    assert CUT in message(
-        "def total(v): return float(sum(min(x, 3.0) for x in v))\n", with_a_table(halved, cut)
-    )
-
-
-LONG = [[5.25, 1.5, 0.25, 2.0], [7.5, 1.25, 4.5, 2.75]]
-SHORT = [4.75, 1.5, 0.5]
-
-
-@pytest.mark.parametrize(
-    ("inputs", "others", "said"),
-    [
-        (LONG, [], True),
-        ([*LONG, SHORT], [], False),  # there the sentence would have changed a right answer
-        (LONG, [SHORT], False),  # so it would have in a check that passes
-        ([*LONG, [2.5, 1.5, 0.5]], [], True),  # here nothing is cut
-    ],
-)
-def test_a_sentence_must_leave_right_answers_right(message, inputs, others, said):
-    told = message(ONLY_LONG, with_a_table(inputs, others))
-    assert "but" in told and (CUT in told) == said
 
 
 def written(body):
