@@ -9,7 +9,6 @@ first stages reach -1273 to -1138, the middle ones -739 to -638 (margin 421), th
 -139. Of 300 others, 3 ended below -400: so one of two seeds is enough.
 """
 
-
 import numpy as np
 from PIL import Image
 
