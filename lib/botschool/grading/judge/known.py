@@ -5,8 +5,8 @@ are repeated on the submission and on each known mistake. A mistake is reported 
 equal the submission's and at least two of them, to different calls, differ from ours. Where the
 submission raises an exception, the mistake must be wrong, too; it is proof if it raises the same.
 Calls of functions that are not done yet do not count. If no mistake fits, the same is tried with
-our solution with one slip in it (variations.py), and then with right solutions in other styles with
-one slip.
+our solution with one slip in it (variations.py), then with right solutions in other styles with one
+slip, and then with known mistakes that import a package.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ TOLD = "Your code"
 VARIED = "Your answers fit this slip:"
 """Words before the sentence on a known mistake, and before the sentence on a slip."""
 SECONDS = 3.0
-"""Processor seconds for all slips of a task; known mistakes have twice that."""
+"""Processor seconds for all slips of a task; known mistakes have half of that before."""
 SLIP_SECONDS = 0.1
 """Processor seconds for one answer with a slip in our solution, which may loop without end."""
 CASE_SECONDS = 0.25
@@ -116,14 +116,18 @@ def named(ours: Student, calls: list[Call], task: Task, known: Known, text: str)
     """
     if not known.solution or not _tells(calls, [call.got for call in calls]):
         return ""
-    for what, made, likely in _likely_first(ours, known.of(task.id)[:MOST], known.solution, calls):
-        if ours.seconds_left < SECONDS and not likely:
-            break  # so much is for slips
-        if _explains(ours, made, calls):
+    made = [(each.what, _changed(each, known.solution)) for each in known.of(task.id)[:MOST]]
+    quick = [pair for pair in made if _imports_little(pair[1], known.solution)]
+    for what, wrong in _fitting(ours, quick, calls):
+        if _explains(ours, wrong, calls):
             return line_about(what)
     slips = _slips(ours, task, known, calls)
-    slip = _clearest(each for each in slips if may_be_true(each, text))
-    return f"{VARIED} {slip.what}" if slip else ""
+    if slip := _clearest(each for each in slips if may_be_true(each, text)):
+        return f"{VARIED} {slip.what}"
+    others = (
+        what for what, wrong in made if (what, wrong) not in quick and _explains(ours, wrong, calls)
+    )
+    return line_about(what) if (what := next(others, "")) else ""
 
 
 def line_about(what: str) -> str:
@@ -181,16 +185,14 @@ def _imports_little(text: str, solution: str) -> bool:
     return names <= sys.stdlib_module_names | {"numpy"}
 
 
-def _likely_first(
-    ours: Student, cases: list[Case], solution: str, calls: list[Call]
-) -> list[tuple[str, str, bool]]:
-    """Return (sentence, text, whether it fits one wrong answer) of mistakes, the fitting first."""
-    made = [(case.what, _changed(case, solution)) for case in cases]
-    texts = [text for _, text in made if text and _imports_little(text, solution)]
-    near = _near(ours, texts, _telling(calls), CASE_SECONDS, "known mistakes")
-    likely = {text for text, fitting in zip(texts, near, strict=True) if fitting}
-    found = [(what, text, text in likely) for what, text in made]
-    return sorted(found, key=lambda each: not each[2])
+def _fitting(
+    ours: Student, made: list[tuple[str, str]], calls: list[Call]
+) -> Iterator[tuple[str, str]]:
+    """Yield (sentence, text) of mistakes that fit one wrong answer, for half of the time."""
+    for batch in _batches(ours, [pair for pair in made if pair[1]], SECONDS / 2):
+        texts = [text for _, text in batch]
+        near = _near(ours, texts, _telling(calls), CASE_SECONDS, "known mistakes")
+        yield from (pair for pair, fits_one in zip(batch, near, strict=True) if fits_one)
 
 
 def _telling(calls: list[Call]) -> Call:
@@ -257,7 +259,7 @@ def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterat
     slips = (
         slip for slip in variations(known.solution, task.id, styles) if not (whole and slip.near)
     )
-    for batch in _batches(ours, slips):
+    for batch in _batches(ours, slips, SECONDS):
         texts = [each.text for each in batch]
         near = _near(ours, texts, _telling(calls), SLIP_SECONDS, "slips in our solution")
         for slip, fitting in zip(batch, near, strict=True):
@@ -274,9 +276,9 @@ def _few(wrong: list[Call]) -> bool:
     return not told or (all(counts(call.got) for call in told) and len(wrong) < COUNTS)
 
 
-def _batches(ours: Student, each: Iterable[T]) -> Iterator[list[T]]:
-    """Yield a few at a time until they end, or until SECONDS of our child have passed."""
-    waiting, end = iter(each), ours.seconds_left - SECONDS
+def _batches(ours: Student, each: Iterable[T], seconds: float) -> Iterator[list[T]]:
+    """Yield a few at a time until they end, or until so many seconds of our child have passed."""
+    waiting, end = iter(each), ours.seconds_left - seconds
     while ours.seconds_left > end and (batch := list(islice(waiting, BATCH))):
         yield batch
 
