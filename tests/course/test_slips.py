@@ -1,7 +1,7 @@
 """Prove that each automatic slip of a solution (judge/variations.py) loses points of its task.
 
 equal/exNN.txt names the slips that change no answer. `pytest -m course -k ex08` tries all slips of
-an exercise, and `make test` a sample. Exercises whose graders declare no inputs yet are left out.
+an exercise, and `make test` a sample. Tasks that may take long are left out.
 """
 
 import hashlib
