@@ -49,7 +49,7 @@ def bodies(rng, spread=0.6):
 
 
 # ------------------------------------------------------------------- 5.1
-size = exercise.task("5.1", "Sizes", refused=TOOL)
+size = exercise.task("5.1", "Sizes", packages=(), refused=TOOL)
 
 
 @decoded(size, 6, "sizes", parts=("lengths",))
@@ -68,7 +68,7 @@ def mass_of_each_segment(rng):
 
 
 # ------------------------------------------------------------------- 5.2
-turning = exercise.task("5.2", "Angles", refused=TOOL)
+turning = exercise.task("5.2", "Angles", packages=(), refused=TOOL)
 
 
 @decoded(turning, 6, "joints", parts=("angles",))
@@ -82,7 +82,7 @@ def limits_of_joints(rng):
 
 
 # ------------------------------------------------------------------- 5.3
-shape = exercise.task("5.3", "The shape at rest", needs=("5.1", "5.2"), refused=TOOL)
+shape = exercise.task("5.3", "The shape at rest", packages=(), needs=("5.1", "5.2"), refused=TOOL)
 
 
 def with_angles(parameters, many):
@@ -108,7 +108,9 @@ def bent_bodies(rng):
 
 
 # ------------------------------------------------------------------- 5.4
-numbers = exercise.task("5.4", "A body in five numbers", needs=("5.1", "5.2", "5.3"), refused=TOOL)
+numbers = exercise.task(
+    "5.4", "A body in five numbers", packages=(), needs=("5.1", "5.2", "5.3"), refused=TOOL
+)
 
 
 @decoded(numbers, 4, "describe", parts=("length", "mass"))
@@ -152,7 +154,7 @@ noiseStdDev = 0.5
 stepsize = 0.5
 saveeach = 60
 """
-running = exercise.task("5.5", "Evolve walkers")
+running = exercise.task("5.5", "Evolve walkers", packages=())
 
 
 def trial(rng, seeds, steps=None, earlier=()):
@@ -212,7 +214,7 @@ def stops_after_the_steps(rng):
 
 
 # ------------------------------------------------------------------- 5.6
-surgery = exercise.task("5.6", "Give a brain another body")
+surgery = exercise.task("5.6", "Give a brain another body", packages=())
 
 
 def genotypes(rng, count):
@@ -232,7 +234,7 @@ def brain_in_another_body(rng):
 
 
 # ------------------------------------------------------------------- 5.7
-crossing = exercise.task("5.7", "The co-adaptation matrix", needs=("5.6",))
+crossing = exercise.task("5.7", "The co-adaptation matrix", packages=(), needs=("5.6",))
 
 
 def crossed(module, text, walkers, seed, episodes):
@@ -268,7 +270,7 @@ def another_experiment(rng):
 
 
 # ------------------------------------------------------------------- 5.8
-losing = exercise.task("5.8", "What is lost")
+losing = exercise.task("5.8", "What is lost", packages=())
 lost = partial(same, tolerance=1e-5, off={"one": "there are at least two walkers"})
 TIES = [[4.0, 4.0, 1.0], [2.0, -1.0, -1.0], [4.0, 0.0, 3.0]]
 """Returns that are the same as the own one in a row, or in a column."""
