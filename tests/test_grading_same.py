@@ -1,5 +1,6 @@
 """Graders that declare inputs: answers are compared with our solution's, and what all must keep."""
 
+import re
 import subprocess
 import sys
 import textwrap
@@ -284,7 +285,7 @@ def test_after_a_time_out_a_function_is_not_called_again(graded):
     start = time.process_time()
     passed, messages = graded("def mixed(*a):\n    while True: pass")
     assert not passed["4.1"] and sum(passed.values()) == 4
-    assert "did not return within 5 seconds" in messages["4.1"]
+    assert re.search(r"did not return within \d+ seconds\.", messages["4.1"])
     assert time.process_time() - start < 15
 
 

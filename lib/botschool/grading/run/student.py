@@ -222,8 +222,9 @@ class Student:
             self.stop()
             self.hung.add(str(request["name"]))
             slept = ": it waits instead of computing" if self._allowance.slept else ""
-            limit = f"{self._limit or self._allowance.seconds:.3g}"
-            within = limit if self._limit else f"the task's {limit}"
+            # A call's limit depends on how long our solution took: whole seconds repeat.
+            limit = self._allowance.seconds
+            within = str(int(self._limit)) if self._limit else f"the task's {limit:.3g}"
             raise Wrong(
                 f"{self.said} did not return within {within} seconds{slept}.{where}"
             ) from None
