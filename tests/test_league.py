@@ -92,7 +92,7 @@ def test_a_laboratory_tells_its_experiment(tmp_path):
     assert code == 0 and "Ada" in out, errors
     read = read_entry(tmp_path / f"bestgS1{SUFFIX}")
     assert (read.name, read.discipline) == ("Ada", "hopper")
-    one_sentence(*call("enter", str(ROBOTS / "ant.npy"), cwd=tmp_path)[::2], "add -f FILE.ini")
+    one_sentence(*call("enter", str(ROBOTS / "hopper.npy"), cwd=tmp_path)[::2], "add -f FILE.ini")
     one_sentence(*call("league", str(tmp_path / "lab09"))[::2], "holds no entries")
 
 

@@ -81,6 +81,22 @@ def test_each_does_as_well_as_measured(ours, capsys):
 # the command
 
 
+@pytest.mark.parametrize(
+    ("algo", "asked", "env"),
+    [
+        ("ppo2", "CartPole-v0", "CartPole-v1"),
+        ("a2c", "Reacher-v2", "Reacher-v5"),
+        ("ppo2", "HopperBulletEnv-v0", "botschool/PlanarHopper-v5"),
+        ("td3", "Ant-v4", "botschool/SpatialAnt-v5"),
+        ("ppo2", "HumanoidBulletEnv-v0", "HumanoidBulletEnv-v5"),
+    ],
+)
+def test_the_chapters_spelling_finds_the_nearest(algo, asked, env):
+    assert shipped.find(algo, asked) is None
+    assert shipped.nearest(algo, asked).env == env
+    assert shipped.nearest(algo, "BreakoutNoFrameskip-v4") is None
+
+
 def test_one_is_taken_where_the_user_has_none(command, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     ours = agent_of("ppo", "CartPole-v1")

@@ -51,6 +51,9 @@ PLAN = (
     ("ppo", "Reacher-v5", {
         "steps": 300_000, "params": QUICK | {"gamma": 0.95, "gae_lambda": 0.9}} | EIGHT),
     ("sac", "HumanoidBulletEnv-v5", {"evaluations": 12, "episodes": 5}),
+    *(("ppo", f"botschool/{body}", {}) for body in (
+        "PlanarHopper-v5", "PlanarHalfCheetah-v5", "PlanarWalker2D-v5",
+        "SpatialAnt-v5", "SpatialHumanoid-v0")),
 )  # fmt: skip
 """Algorithm, environment, and what the training has in place of the defaults."""
 
@@ -97,7 +100,10 @@ def keep(only: list[str]) -> None:
             continue
         path = shipped.place(AGENTS, algo, env)
         path.parent.mkdir(parents=True, exist_ok=True)
-        save_weights(run.best, path)
+        if run.best.suffix == path.suffix:  # the native learner saves weights alone
+            shutil.copy(run.best, path)
+        else:
+            save_weights(run.best, path)
         shutil.copy(run.config, path.parent)
         player = Player(path)
         with contextlib.redirect_stdout(io.StringIO()):

@@ -10,6 +10,7 @@ The README.md there shows the same table.
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -67,3 +68,22 @@ def place(base: Path, algo: str, env: str) -> Path:
 def find(algo: str, env: str) -> Trained | None:
     """Return the agent of an algorithm on an environment, None if there is none."""
     return next((each for each in agents() if (each.algo, each.env) == (algo, env)), None)
+
+
+def nearest(algo: str, env: str) -> Trained | None:
+    """Return an agent of the same environment, by any algorithm and version, else of the same body.
+
+    Several: the one of the same algorithm. None if there is none.
+    """
+    alike = [each for each in agents() if _body(each.env) == _body(env)]
+    same = [each for each in alike if _without_version(each.env) == _without_version(env)]
+    return max(same or alike, key=lambda each: each.algo == algo, default=None)
+
+
+def _without_version(env: str) -> str:
+    return re.sub(r"^.*[/:]|-v\d+$", "", env)
+
+
+def _body(env: str) -> str:
+    """Return "ant" for botschool/SpatialAnt-v5, AntBulletEnv-v0 and Ant-v5."""
+    return re.sub("Spatial|Planar|(Bullet)?Env$", "", _without_version(env)).lower()

@@ -72,13 +72,17 @@ class Asked:
     def _trained(self) -> Path:
         """Return the model of that algorithm on that environment: the user's own, else ours."""
         algo = check_algorithm(self.algo)
-        ours = shipped.find(algo, self.env)
-        if ours is not None and not self.number and not runs_of(self.folder, algo, self.env):
-            print(
-                f"agent: the one that comes with botschool, because {self.folder} has none: "
-                f"{algo} on {self.env}, {ours.steps} steps ({ours.told})"
-            )
-            return ours.path
+        if not self.number and not runs_of(self.folder, algo, self.env):
+            ours, which = shipped.find(algo, self.env), "the one that comes with botschool"
+            if ours is None:
+                ours = shipped.nearest(algo, self.env)
+                which = f"the nearest to {algo} on {self.env} that comes with botschool"
+            if ours is not None:
+                print(
+                    f"agent: {which}, because {self.folder} has none: "
+                    f"{ours.algo} on {ours.env}, {ours.steps} steps ({ours.told})"
+                )
+                return ours.path
         chosen = run_of(self.folder, algo, self.env, self.number, OURS)
         print(f"agent: {chosen.path}")
         return chosen.last if self.last else chosen.best
