@@ -13,8 +13,8 @@
 # %% [markdown]
 # # Exercise 4. The tool
 #
-# The background is in `README.md`. Fill in the functions below one after another, and run
-# `make test-ex4` (or `botschool grade 4.1` for one task) as often as you like.
+# The text is `README.md`. Fill in the functions one after another. `botschool grade 4` grades
+# them, `botschool grade 4.1` one task.
 
 # %%
 """Exercise 4: Acrobot, evolved with the tool."""
@@ -30,8 +30,7 @@ from botschool.evolution.run import Run, evolve
 # %% [markdown]
 # ## Task 4.1. What Acrobot observes
 #
-# Acrobot is an arm of two links. Its first joint hangs on a nail, and has no motor; the second
-# joint, between the links, has one. The state of the arm is four numbers:
+# The state of the arm is four numbers:
 #
 # - $\theta_1$, the angle of the first link from hanging straight down (anticlockwise is
 #   positive);
@@ -61,20 +60,18 @@ def decode(observation: np.ndarray) -> dict:
 # %% [markdown]
 # ## Task 4.2. What Acrobot does, and what for
 #
-# There are three actions: 0, 1 and 2 put a torque of -1, 0 and +1 on the second joint.
+# The actions 0, 1 and 2 put a torque of -1, 0 and +1 on the second joint.
 #
 # The free end of the arm must reach a line, one link above the nail. How high is it? Each link
 # has length 1. The end of a link that makes the angle $\alpha$ with straight down is $\cos\alpha$
-# *below* its beginning. The first link makes the angle $\theta_1$. The second one makes the angle
-# $\theta_1 + \theta_2$, as its own angle is counted from the first. Together, the height of the
-# free end above the nail is
+# *below* its beginning. The first link makes the angle $\theta_1$, the second one
+# $\theta_1 + \theta_2$. So the height of the free end above the nail is
 #
 # $$h = -\cos\theta_1 - \cos(\theta_1 + \theta_2)$$
 #
-# from -2 (hanging) to 2 (upright). A step costs 1, that is, its reward is -1. Only the step that
-# brings the free end above the line, $h > 1$, costs nothing; it also ends the episode. So the
-# return is minus the time needed, and an arm that never gets there has -500, as episodes end
-# after 500 steps.
+# from -2 (hanging) to 2 (upright). The reward of a step is -1. Only the step that brings the free end
+# above the line, $h > 1$, costs nothing; it also ends the episode. So the return is minus the time
+# needed, and an arm that never gets there has -500, as episodes end after 500 steps.
 
 
 # %%
@@ -99,10 +96,6 @@ def reward(observation: np.ndarray) -> float:
 # %% [markdown]
 # ## Task 4.3. Replications with the tool
 #
-# On the command line, `botschool es -f data/experiments/acrobot.ini -s 1 -n 5 -o results/acrobot`
-# does five runs of an experiment with the seeds 1 to 5. Try it, and have a look at the `.ini`
-# file. From Python it goes like this:
-#
 # - `experiment = config.load(file)` reads an experiment file;
 # - `run = Run(experiment, seed)` prepares one run;
 # - `evolve(run, folder, steps)` does it and writes its files into the folder (a `Path`), which
@@ -110,8 +103,7 @@ def reward(observation: np.ndarray) -> float:
 #   steps; None means the whole budget, which the experiment file sets (`maxmsteps`, in millions);
 # - afterwards `run.record.bestg_fitness` is the best post-evaluated fitness.
 #
-# A run with seed 7 writes `statS7.npy` (the curves), `bestS7.npy` (the robot with the best
-# fitness), `bestgS7.npy` (the one with the best post-evaluation), and some more.
+# A run with seed 7 writes `statS7.npy` (the curves), `bestS7.npy`, `bestgS7.npy`, and some more.
 
 
 # %%
@@ -159,11 +151,10 @@ def read_stat(path: str) -> dict:
 # %% [markdown]
 # ## Task 4.5. Mean and spread at equal steps
 #
-# An episode of Acrobot is over when the line is reached, so better robots make shorter episodes,
-# and each run has generations of its own length. The tenth generation of one run has used other
-# steps than the tenth of another, and one run has more generations than the other. To compare
-# them fairly, ask at equal *steps*: how good was each run when it had used, say, a million of
-# them? It was as good as the last generation that was complete by then.
+# An episode of Acrobot is over when the line is reached, so better robots make shorter episodes, and
+# the tenth generation of one run has used other steps than the tenth of another. Ask at equal
+# *steps*: how good was each run when it had used, say, a million of them? It was as good as the last
+# generation that was complete by then.
 
 
 # %%
@@ -184,14 +175,7 @@ def curves(stats: list[dict], column: str, budgets: np.ndarray) -> dict:
 # %% [markdown]
 # ## Task 4.6. What the robots are worth
 #
-# In each generation, OpenAI-ES tries 40 candidates. The fitness of a candidate is its return in a
-# single episode, so the best fitness of a whole run belongs to a good robot *in a lucky episode*.
-# The best candidate of every generation is then *post-evaluated*: its mean return in 10 further
-# episodes decides about `bestgS7.npy`. But these 10 are the same in all generations, and the best
-# of thousands is picked again.
-#
-# So neither number is what you should expect in new episodes. Measure that: load a robot's
-# genotype with `np.load`, make it a `SavedRobot(experiment_file, genotype)`, and
+# Load a robot's genotype with `np.load` and make it a `SavedRobot(experiment_file, genotype)`. Then
 # `robot.evaluate(seed, episodes)` returns an array with its return in each episode.
 
 
@@ -213,9 +197,7 @@ def compare(
 # %% [markdown]
 # ## The picture
 #
-# `botschool show 4` (or running this file once all tasks are done) does three runs of the whole
-# experiment, which takes some seconds, draws their curves, prints what the robots are worth, and
-# films the best one.
+# `botschool show 4` runs this part.
 
 # %%
 if __name__ == "__main__":

@@ -13,8 +13,8 @@
 # %% [markdown]
 # # Exercise 6. A foraging robot
 #
-# The background is in `README.md`. Fill in the functions below one after another, and run
-# `make test-ex6` (or `botschool grade 6.1` for one task) as often as you like.
+# The text is `README.md`. Fill in the functions one after another. `botschool grade 6` grades
+# them, `botschool grade 6.1` one task.
 #
 # Ready-made: `weights(genotype)` takes a saved robot of `data/experiments/discrim.ini` apart, into
 # the *brain* that the functions below are given. It is a dict with
@@ -55,8 +55,8 @@ def mean(values: np.ndarray) -> float:
 # %% [markdown]
 # ## Task 6.1. One step of an LSTM
 #
-# The *memory* of an LSTM has two rows of 10 numbers, one for each unit: `memory[0]`, the cells,
-# and `memory[1]`, the units' outputs in the step before. A step goes like this:
+# The *memory* has two rows of 10 numbers, one for each unit: `memory[0]`, the cells, and `memory[1]`,
+# the units' outputs in the step before. A step:
 #
 # 1. Put the 8 values of the observation and the 10 outputs of the step before into one vector z.
 # 2. Each gate multiplies its weights by z. With the logistic function
@@ -116,8 +116,8 @@ def episode(brain: dict, start, cylinder, seed: int, remember=keep, maxsteps: in
 # %% [markdown]
 # ## Task 6.3. A grid of starts
 #
-# One episode tells little. To compare robots, let all of them start from the same places, spread
-# evenly over the region where episodes start.
+# To compare robots, let all of them start from the same places, spread evenly over the region where
+# episodes start.
 
 
 # %%
@@ -167,14 +167,13 @@ def describe(poses: np.ndarray, rewards: np.ndarray, cylinder) -> dict:
 # %% [markdown]
 # ## Task 6.5. Families
 #
-# Each robot is a row of descriptors now. Steps, millimetres and radians cannot be compared, so
-# each column is brought to the same scale first: subtract its mean, and divide by its standard
-# deviation (`ddof=0`, NumPy's ordinary one). How different two robots are is then the length of the
-# difference of their rows.
+# Steps, millimetres and radians cannot be compared, so bring each column to the same scale: subtract
+# its mean, and divide by its standard deviation (`ddof=0`, NumPy's ordinary one). How different two
+# robots are is then the length of the difference of their rows.
 #
-# Now group them. At first each robot is a family of its own. The distance of two families is the
-# *mean* distance of a robot of the one and a robot of the other, over all such pairs. Merge the two
-# nearest families, again and again, until no two are nearer than the threshold.
+# At first each robot is a family of its own. The distance of two families is the *mean* distance of a
+# robot of the one and a robot of the other, over all such pairs. Merge the two nearest families,
+# again and again, until no two are nearer than the threshold.
 
 
 # %%
@@ -194,10 +193,10 @@ def families(table: np.ndarray, threshold: float) -> list[int]:
 # %% [markdown]
 # ## Task 6.6. Without memory
 #
-# What is memory good for? Take it away and see. There are two ways. `forget` empties the memory
-# after every step: the robot only knows the present. `freeze(since)` leaves the robot alone before
-# step `since`, and from that step on its memory stays as it was before that step: what it knows
-# then it knows for ever, but it learns nothing new.
+# Take the memory away and see what is lost. `forget` empties it after every step: the robot only
+# knows the present. `freeze(since)` leaves the robot alone before step `since`, and from that step on
+# its memory stays as it was before that step: what it knows then it knows for ever, but it learns
+# nothing new.
 
 
 # %%
@@ -225,7 +224,6 @@ def memory_test(
 # ## Task 6.7. The same sight, another mind
 #
 # A robot without memory answers to the same observation always in the same way. Does this robot?
-# Show it one and the same observation with the memory of each step of an episode.
 
 
 # %%
@@ -237,8 +235,7 @@ def reactions(brain: dict, observation: np.ndarray, memories: np.ndarray) -> np.
 # %% [markdown]
 # ## The robots
 #
-# `botschool show 6` (or running this file once all tasks are done) compares your own replications
-# (see README.md) or, if there are none, the three that the course has evolved.
+# `botschool show 6` runs this part.
 
 # %%
 if __name__ == "__main__":

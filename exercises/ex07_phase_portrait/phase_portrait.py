@@ -13,8 +13,8 @@
 # %% [markdown]
 # # Exercise 7. Phase portrait
 #
-# The background is in `README.md`. Fill in the functions below one after another, and run
-# `make test-ex7` (or `botschool grade 7.1` for one task) as often as you like.
+# The text is `README.md`. Fill in the functions one after another. `botschool grade 7` grades
+# them, `botschool grade 7.1` one task.
 
 # %%
 """Exercise 7: what evolution does to the dynamics of a pendulum, seen in phase portraits."""
@@ -29,9 +29,9 @@ from botschool.evolution.algorithms.openaies import OpenAIES
 # %% [markdown]
 # ## Task 7.1. From observation to state
 #
-# Gymnasium's `Pendulum-v1` observes the cosine of its angle, the sine of its angle, and its
-# velocity in radians per second. Angle 0 is upright, and positive angles are counter-clockwise.
-# Cosine and sine together say which angle it is; `np.arctan2` puts them together again.
+# `Pendulum-v1` observes the cosine of its angle, the sine of its angle, and its velocity in radians
+# per second. Angle 0 is upright, and positive angles are counter-clockwise. `np.arctan2(sine,
+# cosine)` returns the angle.
 
 
 # %%
@@ -47,8 +47,8 @@ def to_state(observation: np.ndarray) -> np.ndarray:
 # %% [markdown]
 # ## Task 7.2. Recording an episode
 #
-# A controller is a function here: `controller(observation)` returns the action, an array with one
-# torque. It can be an evolved network, a rule of yours, or `lambda observation: np.zeros(1)`.
+# A controller is a function: `controller(observation)` returns the action, an array with one torque.
+# It can be an evolved network, a rule of yours, or `lambda observation: np.zeros(1)`.
 
 
 # %%
@@ -65,9 +65,8 @@ def record(controller, seed: int, steps: int) -> np.ndarray:
 # %% [markdown]
 # ## Task 7.3. Arrows
 #
-# An arrow starts in one state and says how far it is to the next. One thing needs care. A
-# pendulum that swings through the lowest point goes from an angle of, say, 3.1 to one of -3.1.
-# That is no leap of -6.2 through the whole picture: the short way around is 2 pi - 6.2 = 0.08.
+# An arrow starts in one state and says how far it is to the next. A pendulum that swings through the
+# lowest point from 3.1 to -3.1 turns by 0.08, not by -6.2.
 
 
 # %%
@@ -85,10 +84,10 @@ def arrows(before: np.ndarray, after: np.ndarray) -> np.ndarray:
 # %% [markdown]
 # ## Task 7.4. The whole state space
 #
-# An episode visits few states. To see what the controller would do everywhere, start one step
-# from each point of a grid. Below all its wrappers (`env.unwrapped`) the environment holds its
-# state as an attribute: after a `reset`, `env.unwrapped.state = np.array([angle, velocity])` puts
-# the pendulum anywhere. The controller must be given the observation that belongs to that state.
+# To see what the controller would do everywhere, start one step from each point of a grid. Below all
+# its wrappers (`env.unwrapped`) the environment holds its state as an attribute: after a `reset`,
+# `env.unwrapped.state = np.array([angle, velocity])` puts the pendulum anywhere. The controller must
+# be given the observation that belongs to that state.
 
 
 # %%
@@ -112,10 +111,10 @@ def next_states(controller, states: np.ndarray) -> np.ndarray:
 # %% [markdown]
 # ## Task 7.5. Keeping stages of evolution
 #
-# A run leaves its best robot behind, and only that one. To compare stages you need the robots on
-# the way, too. The loop of an evolution is the same for every algorithm of botschool:
-# `algorithm.ask()` returns the candidates of a generation (one row of parameters each) and seeds
-# that are not needed here, and `algorithm.tell(fitness)` takes their fitness back.
+# A run leaves only its best robot behind. To compare stages you need the robots on the way, too. The
+# loop of an evolution is the same for every algorithm of botschool: `algorithm.ask()` returns the
+# candidates of a generation (one row of parameters each) and seeds that are not needed here, and
+# `algorithm.tell(fitness)` takes their fitness back.
 
 
 # %%
@@ -163,8 +162,7 @@ def three_stages(seed: int) -> np.ndarray:
     The return of one evaluation depends on luck: measure those that you have kept once more, with
     robot.evaluate(parameters, seed, episodes=100), before you choose. Return candidates as they
     were evaluated. Everything random follows from the seed, and another seed gives another
-    evolution. The grader tries two seeds on robots of its own, whose parameters count with other
-    signs and sizes.
+    evolution. The parameters of the grader's robots count with other signs and sizes.
 
     Returns an array of shape (3, parameters).
     """
@@ -201,8 +199,7 @@ def draw_portraits(
 # %% [markdown]
 # ## The portraits
 #
-# `botschool show 7` (or running this file once all tasks are done) draws the pendulum without a
-# motor and three stages of evolution, each with four episodes, and films the last stage.
+# `botschool show 7` runs this part.
 
 # %%
 if __name__ == "__main__":

@@ -13,8 +13,8 @@
 # %% [markdown]
 # # Exercise 9. Reward functions
 #
-# The background is in `README.md`. Fill in the functions below one after another, and run
-# `make test-ex9` (or `botschool grade 9.1` for one task) as often as you like.
+# The text is `README.md`. Fill in the functions one after another. `botschool grade 9` grades
+# them, `botschool grade 9.1` one task.
 
 # %%
 """Exercise 9: what running robots are rewarded for, and what becomes of them."""
@@ -163,10 +163,9 @@ def gait(trajectory: dict) -> dict:
 # %% [markdown]
 # ## Task 9.6. Evolve both, and compare
 #
-# `Runner("PlanarHopper-v5").evolve(steps, seed)` evolves a robot and returns its genotype, an
-# array. `runner.record(genotype, seed)` plays an episode and returns its trajectory.
-#
-# One evolution can be lucky. So each version is evolved several times, from several seeds.
+# `Runner("PlanarHopper-v5").evolve(steps, seed)` evolves a robot and returns its genotype, an array.
+# `runner.record(genotype, seed)` plays an episode and returns its trajectory. One evolution can be
+# lucky, so each version is evolved from several seeds.
 
 
 # %%
@@ -193,8 +192,7 @@ def compare(robot: str, genotypes: dict, seed: int, episodes: int) -> dict:
 # %% [markdown]
 # ## The pictures
 #
-# `botschool show 9` (or running this file once all tasks are done) evolves three Hoppers in each
-# version and compares them. Of each three, the one in the middle is drawn, filmed and replayed.
+# `botschool show 9` runs this part.
 
 # %%
 if __name__ == "__main__":

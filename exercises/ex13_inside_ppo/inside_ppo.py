@@ -13,12 +13,12 @@
 # %% [markdown]
 # # Exercise 13. Inside PPO
 #
-# The background is in `README.md`. Fill in the functions below one after another, and run
-# `make test-ex13` (or `botschool grade 13.1` for one task) as often as you like.
+# The text is `README.md`. Fill in the functions one after another. `botschool grade 13` grades
+# them, `botschool grade 13.1` one task.
 #
-# Everything here is NumPy on plain arrays: numbers in, numbers out. A *rollout* is what the policy
-# has lived through before an update: the same number of steps in each of several environments, one
-# after another whatever ends meanwhile. Its arrays have the shape (steps, envs).
+# Everything here is NumPy on plain arrays. A *rollout* is what the policy has lived through before
+# an update: the same number of steps in each of several environments, one after another whatever
+# ends meanwhile. Its arrays have the shape (steps, envs).
 
 # %%
 """Exercise 13: what PPO computes between two rollouts, and what its network has learnt to see."""
@@ -28,22 +28,14 @@ import numpy as np
 # %% [markdown]
 # ## Task 13.1. Advantages
 #
-# Was an action better than the critic had expected? After one step there is a first answer, the
-# *TD error* $\delta_t$: the reward, plus what the critic says is still to come, minus what it said
-# before. Generalised advantage estimation adds the TD errors of the later steps, each one counting
-# less:
-#
 # $$\delta_t = r_t + \gamma\, n_t\, V_{t+1} - V_t, \qquad
 # A_t = \delta_t + \gamma \lambda\, n_t\, A_{t+1}$$
 #
-# $n_t$ is 0 if step $t$ ended its episode and else 1: what comes after an end has nothing to do
-# with the action. After the last step there are no more TD errors, so the $A$ behind it is 0.
+# $n_t$ is 0 if step $t$ ended its episode, by a time-out too, and else 1. After the last step there
+# are no more TD errors, so the $A$ behind it is 0.
 #
-# An episode that the time limit cut has not ended: more rewards would have come. The rollout still
-# goes on with another episode, so $n_t$ is 0. What would have come is therefore added to the reward
-# of the last step before the advantages are estimated: $\gamma$ times the critic's value of what
-# was observed after that step. This is called *bootstrapping*. An episode that really ended gets
-# nothing.
+# To the reward of a step at which time ran out, $\gamma$ times the critic's value of what was observed
+# after it is added first (*bootstrapping*). An episode that really ended gets nothing.
 
 
 # %%
@@ -89,16 +81,9 @@ def advantages(
 # %% [markdown]
 # ## Task 13.2. The clipped surrogate
 #
-# Actions with a positive advantage shall become more probable, and others less. How much more or
-# less probable an action has become is the *ratio* of its probability now, with the policy that is
-# being trained, to the one it had in the rollout:
-#
 # $$\rho_t = \frac{p_{\mathrm{now}}(a_t)}{p_{\mathrm{old}}(a_t)}
-# = e^{\ln p_{\mathrm{now}}(a_t) - \ln p_{\mathrm{old}}(a_t)}$$
-#
-# The loss (to be made small) takes, of two products, the smaller one:
-#
-# $$L = -\frac{1}{N} \sum_t \min\left( \rho_t A_t,\;
+# = e^{\ln p_{\mathrm{now}}(a_t) - \ln p_{\mathrm{old}}(a_t)}, \qquad
+# L = -\frac{1}{N} \sum_t \min\left( \rho_t A_t,\;
 # \mathrm{clip}(\rho_t, 1 - \epsilon, 1 + \epsilon)\, A_t \right)$$
 #
 # Before, the advantages of the batch are normalised: minus their mean, divided by (their standard
@@ -123,10 +108,9 @@ def policy_loss(
 # %% [markdown]
 # ## Task 13.3. The loss of the critic
 #
-# The critic shall predict the *return* of each step, for which PPO takes $A_t + V_t$ with the
-# values of the rollout. Its loss is the mean squared difference. Some people clip here too: the
-# prediction is then not allowed to count for more than `clip_range_vf` of movement away from the
-# value in the rollout.
+# The critic shall predict the *return* of each step, for which PPO takes $A_t + V_t$ with the values of
+# the rollout. Its loss is the mean squared difference. Some people clip here too: a prediction then
+# counts for at most `clip_range_vf` of movement away from the value in the rollout.
 
 
 # %%
@@ -148,8 +132,8 @@ def value_loss(
 # %% [markdown]
 # ## Task 13.4. Entropy
 #
-# How undecided is the policy? For discrete actions with probabilities $p_i$ (softmax of the
-# scores, as in exercise 12) and for Gaussian ones with deviations $\sigma_i$:
+# For discrete actions with probabilities $p_i$ (softmax of the scores, as in exercise 12) and for
+# Gaussian ones with deviations $\sigma_i$:
 #
 # $$H = -\sum_i p_i \ln p_i \qquad \text{and} \qquad
 # H = \sum_i \left( \tfrac{1}{2} + \tfrac{1}{2} \ln 2\pi + \ln \sigma_i \right)$$
@@ -172,11 +156,9 @@ def entropy_of_gaussians(log_deviation: np.ndarray) -> float:
 # %% [markdown]
 # ## Task 13.5. How far has the policy moved?
 #
-# The Kullback-Leibler divergence says how different two distributions are; 0 means equal. From the
-# actions of a batch it can be estimated as the mean of $(\rho_t - 1) - \ln \rho_t$. PPO goes
-# through a rollout in several *epochs*, and in each of them batch by batch. As soon as the estimate
-# of a batch is greater than 1.5 times `target_kl`, training on this rollout is over, and this batch
-# makes no update any more.
+# The divergence of a batch is the mean of $(\rho_t - 1) - \ln \rho_t$. PPO goes through a rollout in
+# several *epochs*, and in each of them batch by batch. As soon as the estimate of a batch is greater
+# than 1.5 times `target_kl`, training on this rollout is over, and this batch makes no update.
 
 
 # %%
@@ -197,10 +179,10 @@ def updates_made(divergences: list[list[float]], target_kl: float | None) -> int
 # ## Task 13.6. All together
 #
 # One loss for everything: the policy's, plus `vf_coef` times the critic's, minus `ent_coef` times
-# the mean entropy (being undecided is rewarded, so that exploring does not stop too soon).
+# the mean entropy.
 #
-# And is the critic any good? The *explained variance* compares what it leaves unexplained with how
-# much the returns vary: 1 is perfect, 0 no better than always saying the mean, negative is worse.
+# The *explained variance* compares what the critic leaves unexplained with how much the returns vary:
+# 1 is perfect, 0 no better than always saying the mean, negative is worse.
 #
 # $$1 - \frac{\mathrm{var}(R - V)}{\mathrm{var}(R)}$$
 
@@ -222,14 +204,11 @@ def explained_variance(values: np.ndarray, returns: np.ndarray) -> float:
 # ## Task 13.7. What the hidden neurons respond to
 #
 # Each hidden layer computes $\tanh(W x + b)$ of what comes before it, the first one of the
-# observation. To see what a neuron responds to, let the policy run, record, and ask for each number
-# that is observed how closely the neuron follows it: by their correlation,
+# observation. How closely does a neuron follow a number that is observed? Their correlation over a
+# recording is
 #
 # $$c = \frac{\sum_t (h_t - \bar h)(x_t - \bar x)}
 # {\sqrt{\sum_t (h_t - \bar h)^2 \; \sum_t (x_t - \bar x)^2}}$$
-#
-# which is 1 or -1 if the neuron is a straight line of this number alone, and 0 if it knows nothing
-# of it.
 
 
 # %%
@@ -257,22 +236,23 @@ def responses(activations: np.ndarray, observations: np.ndarray) -> np.ndarray:
 # %% [markdown]
 # ## Task 13.8. Your own loop
 #
-# Now put the pieces together. `ppo` is a `botschool.rl.native.PPO`: it acts, keeps the networks,
-# and computes the loss of 13.6 with its gradient. You decide what is learned from what.
+# `ppo` is a `botschool.rl.native.PPO`: it acts, keeps the networks, and computes the loss of 13.6 with
+# its gradient. You decide what is learned from what.
 #
 # - `ppo.collect()` acts for a rollout and returns it. Its arrays `rewards` (bootstrapped as in
 #   13.1), `values` and `ended` have the shape (steps, envs), `last_values` the shape (envs,).
-#   `ended` is 1 where the episode ended with this step, 2 where time ran out, else 0.
-# - `rollout.advantages` and `rollout.returns` are arrays of the same shape. `collect` fills them in
-#   as a rule, but in this exercise they hold zeros. Write your numbers into them: the critic learns
-#   the returns, which are the advantages plus the values.
+#   `ended` says of each step what `advantages` is told in two pieces: 0 if its episode goes on, 1 if
+#   it ended with this step, 2 if time ran out. So `episode_starts` of step t + 1 and, after the last
+#   step, `dones` are 1 where `ended` is not 0.
+# - `rollout.advantages` and `rollout.returns` are arrays of the same shape, and hold zeros. Write your
+#   numbers into them: the critic learns the returns, which are the advantages plus the values.
 # - `ppo.minibatch(rows)` returns the steps with these numbers, from 0 to steps times envs - 1;
 #   `batch.log_probs` are the log-probabilities of the rollout.
 # - `ppo.loss(batch)` returns `log_probs`, those of the present policy, and `gradient`.
 # - `ppo.step(gradient)` makes one update against a gradient.
 #
 # `ppo.hyperparameters` has `n_epochs`, `batch_size`, `gamma`, `gae_lambda` and `target_kl`, and
-# `ppo.steps` counts the steps of all environments so far.
+# `ppo.steps` counts the steps of all environments so far. `ppo.update` and `ppo.learn` are refused.
 
 
 # %%
@@ -290,10 +270,7 @@ def learn(ppo, steps: int, seed: int) -> None:
 # %% [markdown]
 # ## Your numbers beside those of Stable-Baselines3
 #
-# `botschool show 13` (or running this file once all tasks are done) trains PPO on CartPole,
-# compares your functions with what Stable-Baselines3 computes on a rollout of it, and draws what
-# the hidden neurons respond to, before and after training. Then your loop trains ten agents, and
-# the engine's own loop ten others, in seconds.
+# `botschool show 13` runs this part.
 
 # %%
 if __name__ == "__main__":

@@ -13,8 +13,8 @@
 # %% [markdown]
 # # Exercise 1. Gymnasium
 #
-# The background is in `README.md`. Fill in the functions below one after another, and run
-# `make test-ex1` (or `botschool grade 1.1` for one task) as often as you like.
+# The text is `README.md`. Fill in the functions one after another. `botschool grade 1` grades
+# them, `botschool grade 1.1` one task.
 
 # %%
 """Exercise 1: environments, episodes and rewards."""
@@ -26,18 +26,10 @@ from gymnasium import spaces
 # %% [markdown]
 # ## Task 1.1. What an agent sees and does
 #
-# `env = gymnasium.make("CartPole-v1")` makes an environment. It carries two *spaces*: the possible
-# observations, `env.observation_space`, and the possible actions, `env.action_space`. We meet two
-# kinds of space:
-#
-# - `spaces.Box`: a list of real numbers, each between its own limits `space.low` and `space.high`
-#   (a limit may be infinite);
-# - `spaces.Discrete`: one whole number out of `space.n` choices; they start with `space.start`,
-#   which is nearly always 0.
-#
-# `env.spec.max_episode_steps` is the time limit of an episode, or None if there is none.
-#
-# Look at them first: `print(env.observation_space, env.action_space)`.
+# `gymnasium.make("CartPole-v1")` makes an environment, `env.observation_space` and
+# `env.action_space` are its two spaces: print them first. A `spaces.Box` has the limits `space.low`
+# and `space.high` (which may be infinite), a `spaces.Discrete` has `space.n` choices that begin with
+# `space.start`. `env.spec.max_episode_steps` is the time limit, or None if there is none.
 
 
 # %%
@@ -74,15 +66,6 @@ def describe(environment_id: str) -> dict:
 
 # %% [markdown]
 # ## Task 1.2. A random episode
-#
-# An *episode* is one life of the agent:
-#
-# - `observation, info = env.reset(seed=seed)` puts it at the start. The seed decides where, so
-#   that the same episode can be played again;
-# - `observation, reward, terminated, truncated, info = env.step(action)` does one step.
-#
-# An episode ends in one of two ways. `terminated`: the task itself came to an end (the pole fell,
-# the goal was reached). `truncated`: it did not, but the environment's time limit is over.
 #
 # `env.action_space.sample()` draws a random action. The space has random numbers of its own, which
 # `env.action_space.seed(seed)` sets.
@@ -130,13 +113,13 @@ def random_episode(environment_id: str, seed: int, maxsteps: int) -> dict:
 # %% [markdown]
 # ## Task 1.3. The reward of CartPole
 #
-# CartPole's observation holds four numbers: the position of the cart (in metres, 0 is the middle),
-# its speed, the angle of the pole (in radians, 0 is upright) and the speed of the angle. The
-# episode is terminated as soon as the cart is more than 2.4 metres from the middle or the pole
-# leans more than 12 degrees, to either side.
+# CartPole observes four numbers: the position of the cart (in metres, 0 is the middle), its speed,
+# the angle of the pole (in radians, 0 is upright) and the speed of the angle. The episode is
+# terminated as soon as the cart is more than 2.4 metres from the middle or the pole leans more than
+# 12 degrees, to either side.
 #
-# The reward is 1 for every step that *begins* with the pole up, the step in which it falls
-# included. If you go on after the fall, Gymnasium warns you and gives 0.
+# A step is worth 1 if it *begins* with the pole up, so the step in which the pole falls counts, too.
+# If you go on after the fall, Gymnasium warns you and gives 0.
 
 
 # %%
@@ -162,16 +145,15 @@ def cartpole_reward(observation: np.ndarray, action: int) -> float:
 # %% [markdown]
 # ## Task 1.4. The reward of Pendulum
 #
-# Pendulum is a rod on a motor that is too weak to lift it at once. Its observation is
-# $(\cos\theta, \sin\theta, \dot\theta)$: the angle $\theta$ (0 is upright, $\pi$ is hanging down)
-# through its cosine and sine, and the speed of the angle. The action is an array with one number,
-# the torque $u$ of the motor. The reward of a step is
+# Pendulum observes $(\cos\theta, \sin\theta, \dot\theta)$: the angle $\theta$ (0 is upright, $\pi$
+# is hanging down) through its cosine and sine, and the speed of the angle. The action is an array
+# with one number, the torque $u$. The reward of a step is
 #
 # $$r = -(\theta^2 + 0.1\,\dot\theta^2 + 0.001\,u^2)$$
 #
-# with $\theta$ between $-\pi$ and $\pi$: the best reward is 0, standing upright without any motion
-# or effort. $\theta$ and $\dot\theta$ are those at the *beginning* of the step. The motor cannot do
-# more than 2 in either direction: a larger torque is cut to that before anything else happens.
+# with $\theta$ between $-\pi$ and $\pi$, so the best reward is 0. $\theta$ and $\dot\theta$ are those
+# at the *beginning* of the step. The motor gives at most 2 in either direction: a larger torque is
+# cut to that before anything else happens.
 
 
 # %%
@@ -191,9 +173,8 @@ def pendulum_reward(observation: np.ndarray, action: np.ndarray) -> float:
 # %% [markdown]
 # ## Task 1.5. Balance the pole
 #
-# Action 0 pushes the cart to the left, action 1 to the right. A positive angle means that the pole
-# leans to the right. Random actions keep it up for some 22 steps; a rule of one line that you
-# think up yourself keeps it up for as long as you like.
+# A positive angle means that the pole leans to the right. Random actions keep it up for some 22
+# steps; a rule of one line that you think up yourself keeps it up for hundreds.
 
 
 # %%
@@ -212,9 +193,8 @@ def balance(observation: np.ndarray) -> int:
 # %% [markdown]
 # ## Task 1.6. Random agents compared
 #
-# The *return* of an episode is the sum of its rewards. One random episode says little, so play
-# several and write down their mean return and how much they differ. With the returns $R_1$ to
-# $R_n$ and their mean $\bar R$, the standard deviation is
+# One random episode says little, so play several and write down their mean return and how much they
+# differ. With the returns $R_1$ to $R_n$ and their mean $\bar R$, the standard deviation is
 #
 # $$s = \sqrt{\frac{1}{n-1} \sum_{i=1}^{n} (R_i - \bar R)^2}$$
 
@@ -253,8 +233,7 @@ def compare(environment_ids: list[str], episodes: int, seed: int) -> list[dict]:
 # %% [markdown]
 # ## The picture
 #
-# `botschool show 1` (or running this file once all tasks are done) prints the table of random
-# agents, draws how their returns are spread, and films two episodes of your rule.
+# `botschool show 1` runs this part.
 
 # %%
 if __name__ == "__main__":

@@ -13,8 +13,8 @@
 # %% [markdown]
 # # Exercise 2. A neural controller
 #
-# The background is in `README.md`. Fill in the functions below one after another, and run
-# `make test-ex2` (or `botschool grade 2.1` for one task) as often as you like.
+# The text is `README.md`. Fill in the functions one after another. `botschool grade 2` grades
+# them, `botschool grade 2.1` one task.
 
 # %%
 """Exercise 2: a neural network that controls a robot in any Gymnasium environment."""
@@ -26,12 +26,7 @@ from gymnasium import spaces
 # %% [markdown]
 # ## Task 2.1. The parameters
 #
-# The network has three layers: inputs (what the robot observes), hidden neurons, and outputs (what
-# it does). Every input is connected to every hidden neuron, and every hidden neuron to every
-# output; each connection has a *weight*. Each hidden neuron and each output also has a *bias*, a
-# constant that is added to what comes in.
-#
-# We keep them in a dict of four arrays. `W1[h, i]` is the weight from input i to hidden neuron h,
+# The parameters are a dict of four arrays. `W1[h, i]` is the weight from input i to hidden neuron h,
 # `W2[o, h]` the weight from hidden neuron h to output o; `b1` and `b2` are the biases.
 
 
@@ -60,14 +55,9 @@ def parameters(ninputs: int, nhiddens: int, noutputs: int, seed: int) -> dict:
 # %% [markdown]
 # ## Task 2.2. From observation to outputs
 #
-# A neuron adds up what comes in, each input times its weight, then its bias, and squeezes the sum
-# into the range from -1 to 1 with the function $\tanh$ (hyperbolic tangent). For the observation
-# $x$, the hidden neurons $h$ and the outputs $y$:
+# For the observation $x$, the hidden neurons $h$ and the outputs $y$:
 #
 # $$h = \tanh(W_1 x + b_1), \qquad y = \tanh(W_2 h + b_2)$$
-#
-# $W_1 x$ is a matrix times a vector: its entry number $j$ is the sum of row $j$ of $W_1$ times $x$,
-# number by number. In NumPy: `W1 @ x`.
 
 
 # %%
@@ -108,12 +98,10 @@ def sizes(environment_id: str) -> tuple[int, int]:
 # %% [markdown]
 # ## Task 2.4. From outputs to an action
 #
-# - Discrete actions: the most active output decides. The choices of the space begin with
-#   `space.start` (nearly always 0), which stands for output 0.
-# - A Box: every output lies between -1 and 1, and every number of the action between its limits
-#   $l$ and $u$, `space.low` and `space.high`. We stretch one range over the other, so that the
-#   network can use all of its motor: $a = l + \frac{y + 1}{2} (u - l)$. An output of -1 gives $l$,
-#   0 gives the middle, 1 gives $u$.
+# - Discrete actions: the most active output decides. Output 0 stands for the first choice,
+#   `space.start`.
+# - A Box: an output $y$ of -1 gives the number's lower limit $l$ (`space.low`), 0 the middle, and 1
+#   the upper limit $u$ (`space.high`): $a = l + \frac{y + 1}{2} (u - l)$.
 
 
 # %%
@@ -136,8 +124,8 @@ def act(outputs: np.ndarray, action_space: spaces.Space) -> int | np.ndarray:
 # %% [markdown]
 # ## Task 2.5. An episode
 #
-# Now the network gets its body: observe, compute, act, and again, until the episode is terminated
-# or truncated (exercise 1), or `maxsteps` are done.
+# Observe, compute, act, and again, until the episode is terminated or truncated (exercise 1), or
+# `maxsteps` are done.
 
 
 # %%
@@ -164,8 +152,7 @@ def run_episode(environment_id: str, network: dict, seed: int, maxsteps: int = 2
 # %% [markdown]
 # ## Task 2.6. Fitness
 #
-# The start of an episode is random, so one episode may be good or bad luck. The *fitness* of a
-# network is its mean return over several episodes; we take 10 of them as a rule.
+# The mean return over several episodes.
 
 
 # %%
@@ -183,10 +170,8 @@ def fitness(environment_id: str, network: dict, seeds: list[int], maxsteps: int 
 # %% [markdown]
 # ## Task 2.7. Many networks at once
 #
-# Evolution works with populations of networks. Calling `forward` for each of them in a Python loop
-# spends nearly all of its time on the loop. NumPy can do the same for all networks in a single
-# operation: stack their weights in an array with one more dimension in front, and use `@` on
-# stacks of matrices, or `np.einsum`. For network $n$,
+# NumPy computes all networks in one operation: use `@` on stacks of matrices, or `np.einsum`. For
+# network $n$,
 #
 # $$h_{nj} = \tanh\Big(\sum_i W_{1,nji}\, x_{ni} + b_{1,nj}\Big)$$
 
@@ -210,8 +195,7 @@ def forward_batch(networks: dict, observations: np.ndarray) -> np.ndarray:
 # %% [markdown]
 # ## Task 2.8. The luckiest network
 #
-# The simplest way to find a good controller: try many random ones and keep the best. All of them
-# meet the same episodes, so that none has an easier start than another.
+# Try many random networks in the same episodes and keep the best.
 
 
 # %%
@@ -236,9 +220,7 @@ def random_search(environment_id: str, nnetworks: int, nhiddens: int, seed: int)
 # %% [markdown]
 # ## The picture
 #
-# `botschool show 2` (or running this file once all tasks are done) draws how the fitness of 200
-# random networks is spread in four environments, and films the best one of CartPole. It takes a
-# minute or two.
+# `botschool show 2` runs this part. It takes a minute or two.
 
 # %%
 if __name__ == "__main__":

@@ -13,8 +13,8 @@
 # %% [markdown]
 # # Exercise 5. Body and brain
 #
-# The background is in `README.md`. Fill in the functions below one after another, and run
-# `make test-ex5` (or `botschool grade 5.1` for one task) as often as you like.
+# The text is `README.md`. Fill in the functions one after another. `botschool grade 5` grades
+# them, `botschool grade 5.1` one task.
 
 # %%
 """Exercise 5: walkers whose body and brain evolve together."""
@@ -37,15 +37,14 @@ OBSERVATIONS = 35
 # %% [markdown]
 # ## Task 5.1. Sizes
 #
-# A body is described by 64 numbers $p$. Evolution may make them as large as it likes, but a
-# segment must neither vanish nor grow without end. So each number goes through a function that
-# keeps it within limits. For lengths (in metres) and thicknesses it is
+# Evolution may make the 64 numbers $p$ as large as it likes, but a segment must neither vanish nor
+# grow without end. For lengths (in metres) and thicknesses the function
 #
 # $$\text{length} = 0.8\,(1 + 0.9 \tanh p) \qquad \text{thickness} = 0.2\,(1 + 0.9 \tanh p)$$
 #
-# As $\tanh$ lies between -1 and 1, a segment is at least a tenth as long as the nominal 0.8 m of
-# $p = 0$, and less than twice as long. The density (kilograms per square metre, as the world is
-# flat) varies less: $5 + 0.8 \tanh p$. The mass of a segment is length x thickness x density.
+# keeps them within limits: a segment is at least a tenth as long as the nominal 0.8 m of $p = 0$,
+# and less than twice as long. The density (kilograms per square metre, as the world is flat) varies
+# less: $5 + 0.8 \tanh p$. The mass of a segment is length x thickness x density.
 #
 # The numbers come in this order:
 #
@@ -79,18 +78,17 @@ def sizes(parameters: np.ndarray) -> dict:
 # %% [markdown]
 # ## Task 5.2. Angles
 #
-# Angles are kept within limits in a plainer way: the parameter is cut off at -1 and at 1, as
-# `np.clip(p, -1, 1)` does, and then scaled. The *default angle* of a segment is
+# For angles the number is cut off at -1 and at 1 (`np.clip(p, -1, 1)`), and then scaled. The *default
+# angle* of a segment is
 #
 # $$\text{angle} = \tfrac{3\pi}{4}\, \mathrm{clip}(p, -1, 1)$$
 #
 # For the torso it is the angle against the ground, for each other segment the angle against the
-# segment before, counter-clockwise positive. Around this default angle a joint can move between
-# two limits, each
+# segment before, counter-clockwise positive. Around it the joint moves between two limits, each
 #
 # $$\text{limit} = \tfrac{\pi}{2}\, \mathrm{clip}(p, -1, 1)$$
 #
-# Evolution does not know which of the two is to be the lower one. So the smaller is taken for it.
+# Evolution does not know which of the two is the lower one, so the smaller one is.
 
 
 # %%
@@ -151,7 +149,7 @@ def outline(parameters: np.ndarray) -> np.ndarray:
 # %% [markdown]
 # ## Task 5.4. A body in five numbers
 #
-# To compare bodies we want few numbers instead of 64.
+# To compare bodies we want five numbers instead of 64.
 
 
 # %%
@@ -181,10 +179,9 @@ def describe(parameters: np.ndarray) -> dict:
 # %% [markdown]
 # ## Task 5.5. Evolve walkers
 #
-# With the tool, as in exercise 4: `config.load(file)`, `Run(experiment, seed)`,
-# `evolve(run, folder, steps)` with a folder (a text or a `Path`) that exists; make it with
-# `Path(folder).mkdir(parents=True, exist_ok=True)`. Afterwards `run.record.bestg` is the
-# genotype with the best post-evaluated fitness, as an array.
+# As in exercise 4: `config.load(file)`, `Run(experiment, seed)`, and `evolve(run, folder, steps)` with
+# a folder that exists. Afterwards `run.record.bestg` is the genotype with the best post-evaluated
+# fitness, as an array.
 
 
 # %%
@@ -244,11 +241,10 @@ def transplant(brain: np.ndarray, body: np.ndarray) -> np.ndarray:
 # %% [markdown]
 # ## Task 5.7. The co-adaptation matrix
 #
-# Now every brain gets to try every body. With $n$ walkers this makes a table of $n$ rows, one for
-# each brain, and $n$ columns, one for each body; on its diagonal are the walkers as they evolved.
-#
-# `SavedRobot(experiment_file, genotype).evaluate(seed, episodes)` returns the return of each
-# episode, as in exercise 4. Use the same seed for all, so that all walk over the same ground.
+# With $n$ walkers this makes a table of $n$ rows, one for each brain, and $n$ columns, one for each
+# body; on its diagonal are the walkers as they evolved. `SavedRobot(experiment_file,
+# genotype).evaluate(seed, episodes)` returns the return of each episode, as in exercise 4. Use the
+# same seed for all, so that all walk over the same ground.
 
 
 # %%
@@ -277,8 +273,7 @@ def cross_evaluate(
 # ## Task 5.8. What is lost
 #
 # If any brain could drive any body, all numbers in a column would be alike. If brain and body are
-# *co-adapted*, the diagonal stands out: a brain loses when it leaves its body, and a body loses
-# when it gets another's brain.
+# co-adapted, the diagonal stands out.
 
 
 # %%
@@ -313,10 +308,7 @@ def loss(matrix: np.ndarray) -> dict:
 # %% [markdown]
 # ## The pictures
 #
-# `botschool show 5` (or running this file once all tasks are done) evolves a walker of your own in
-# the course's own simulator, draws its body in `my_walker.png` and films it. Then it takes three
-# walkers that have evolved in Box2D, from `data/genotypes`: their bodies are drawn in
-# `walkers.png`, each brain in each body in `matrix.png`, and they are filmed.
+# `botschool show 5` runs this part.
 
 # %%
 if __name__ == "__main__":

@@ -13,8 +13,8 @@
 # %% [markdown]
 # # Exercise 8. OpenAI-ES
 #
-# The background is in `README.md`. Fill in the functions below one after another, and run
-# `make test-ex8` (or `botschool grade 8.1` for one task) as often as you like.
+# The text is `README.md`. Fill in the functions one after another. `botschool grade 8` grades
+# them, `botschool grade 8.1` one task.
 
 # %%
 """Exercise 8: the OpenAI evolution strategy, piece by piece, and the stability of its curves."""
@@ -30,8 +30,8 @@ from botschool.course import Robot
 #
 # ## Task 8.1. Symmetric sampling
 #
-# Each generation looks around: for each of the random vectors e, it tries c + s e and c - s e, two
-# candidates on opposite sides of the centre.
+# For each of the random vectors e, c + s e and c - s e are two candidates on opposite sides of the
+# centre.
 
 
 # %%
@@ -53,9 +53,8 @@ def candidates_around(centre: np.ndarray, samples: np.ndarray, noiseStdDev: floa
 # %% [markdown]
 # ## Task 8.2. Utilities
 #
-# Not the fitness itself counts, but its rank among the candidates: the worst gets the utility
-# -0.5, the best 0.5, and the others lie evenly between them (*centred ranks*). One candidate with
-# an enormous fitness then weighs no more than any other winner.
+# The worst candidate gets the utility -0.5, the best 0.5, and the others lie evenly between them
+# (*centred ranks*).
 
 
 # %%
@@ -74,9 +73,6 @@ def utilities(fitness: np.ndarray) -> np.ndarray:
 
 # %% [markdown]
 # ## Task 8.3. The gradient
-#
-# If c + s e did better than c - s e, then e points uphill, else it points downhill. So each sample
-# is weighted by the difference of its two utilities, and the weighted samples are added up:
 #
 # $$g = \frac{1}{2 \cdot \mathrm{samplesize}} \sum_b (u_{2b} - u_{2b+1}) \, e_b$$
 #
@@ -99,10 +95,7 @@ def gradient(samples: np.ndarray, utilities: np.ndarray) -> np.ndarray:
 # %% [markdown]
 # ## Task 8.4. Weight decay
 #
-# Optimisers descend: they are told which way to reduce a loss. Our loss is minus the fitness, so
-# they get -g. *Weight decay* adds a pull towards 0 that keeps parameters small:
-#
-# - `wdecay` 0: d = -g, no pull;
+# - `wdecay` 0: d = -g, no decay;
 # - `wdecay` 1: d = -g + 0.005 c, a pull in proportion to each parameter;
 # - `wdecay` 2: d = -g + 0.005 sign(c), the same pull on each parameter that is not 0.
 
@@ -119,18 +112,13 @@ def descent(gradient: np.ndarray, centre: np.ndarray, wdecay: int) -> np.ndarray
 # %% [markdown]
 # ## Task 8.5. Adam
 #
-# The gradient is noisy. Adam averages it over the generations: m is a running mean of d, and v one
-# of its square (element by element). In generation t, counted from 1:
+# m is a running mean of d, and v one of its square (element by element). In generation t, counted
+# from 1:
 #
 # $$m \leftarrow 0.9\, m + 0.1\, d \qquad v \leftarrow 0.999\, v + 0.001\, d^2$$
 #
-# Both start at 0 and are too small at first. The *bias correction* makes up for it:
-#
 # $$\hat m = \frac{m}{1 - 0.9^t} \qquad \hat v = \frac{v}{1 - 0.999^t} \qquad
 # c \leftarrow c - \mathrm{stepsize} \cdot \frac{\hat m}{\sqrt{\hat v} + 10^{-8}}$$
-#
-# Since m is divided by about the size of d, each parameter moves by about `stepsize`, however
-# large or small the gradient is.
 
 
 # %%
@@ -193,10 +181,6 @@ def evolve(
 # %% [markdown]
 # ## Task 8.7. How stable is it?
 #
-# Does fitness keep rising, or does it fall back on the way? Curves are noisy, since each
-# generation meets other starting conditions; so smooth them first. Then look for the largest
-# fall from a height reached before, and compare it with the height of the whole curve:
-#
 # $$\mathrm{drop} = \frac{\max_t \left( \max_{i \le t} x_i - x_t \right)}{\max x - \min x}$$
 #
 # - drop at most 0.1: `"monotonic"`, but for small ripples;
@@ -249,10 +233,6 @@ def stability(curve: np.ndarray) -> dict:
 # `Robot(environment)` is the same as in exercise 3. Start, as there, from biases 0 and Gaussian
 # weights with standard deviation 0.1; how many of each there are, `robot.nbiases` and
 # `robot.nweights` say. `robot.evaluate(candidates, seed, episodes=10)` measures fitness.
-#
-# What counts is a centre to which your own `evolve` has led, there and then: so that none can be
-# written down, `robot.evaluate` gives parameters other signs when the task is graded. Evolution
-# does not notice.
 
 
 # %%
@@ -282,9 +262,7 @@ def train(environment: str, seed: int) -> np.ndarray:
 # %% [markdown]
 # ## Curves with their verdicts
 #
-# `botschool show 8` (or running this file once all tasks are done) evolves three problems with rash
-# hyperparameters, judges the curves and marks the largest fall of each. Then it films the pendulum
-# that `train` has evolved.
+# `botschool show 8` runs this part.
 
 # %%
 if __name__ == "__main__":

@@ -13,8 +13,8 @@
 # %% [markdown]
 # # Exercise 10. A new environment
 #
-# The background is in `README.md`. Fill in the functions and methods below one after another, and
-# run `make test-ex10` (or `botschool grade 10.1` for one task) as often as you like.
+# The text is `README.md`. Fill in the functions one after another. `botschool grade 10` grades
+# them, `botschool grade 10.1` one task.
 
 # %%
 """Exercise 10: a balancing robot, from its description to a trained controller."""
@@ -38,12 +38,10 @@ LOWEST = 0.15  # metres: with the centre of its body below, the robot has fallen
 # %% [markdown]
 # ## Task 10.1. Read the robot
 #
-# A robot is described in a text file, in the format URDF: *links* (stiff parts) held together by
-# *joints*. Open `data/robots/balance_bot.urdf` and read it; the README explains what is what.
-#
-# `root = ElementTree.fromstring(urdf)` makes a tree of the text. `root.findall("link")` are the
-# links in the order of the file, `element.find("inertial/mass")` is an element inside another one,
-# or None if there is none, and `element.get("value")` is an attribute, which is a text.
+# Open `data/robots/balance_bot.urdf` and read it. `root = ElementTree.fromstring(urdf)` makes a tree
+# of the text. `root.findall("link")` are the links in the order of the file,
+# `element.find("inertial/mass")` is an element inside another one, or None if there is none, and
+# `element.get("value")` is an attribute, which is a text.
 
 
 # %%
@@ -104,18 +102,12 @@ def describe(urdf: str) -> dict:
 # without a window, and `picture` holds the camera.
 #
 # The robot lives on the plane z = 0. Its wheels turn around the x axis, so it drives along y and
-# falls over around x. In the simulation the wheels are joints number 0 and 1, and everything that
-# the README says about the base of the robot holds for its body.
+# falls over around x. In the simulation the wheels are joints number 0 and 1, and the base of the
+# robot is its body.
 #
 # Every function of PyBullet takes the number of the simulation, as in
-# `pybullet.stepSimulation(physicsClientId=self.client)`. Do not forget it: without it you talk to
-# simulation 0, which may be another environment's.
-#
-# - **10.2** `__init__`: the spaces.
-# - **10.3** `observe`: what the robot feels.
-# - **10.4** `reset`: a new world, and the robot in it.
-# - **10.5** `drive`: from the action to the motors.
-# - **10.6** `reward`, `fallen` and `step`.
+# `pybullet.stepSimulation(physicsClientId=self.client)`. Without it you talk to simulation 0, which
+# may be another environment's.
 
 
 # %%
@@ -270,7 +262,7 @@ class BalanceBotEnv(gymnasium.Env):
 # `gymnasium.register(id=..., entry_point=..., max_episode_steps=...)` you say the name, the class,
 # and the time limit. Gymnasium watches the limit for you: the last step is then `truncated`.
 #
-# When it is done, let Gymnasium check what you have built:
+# Then let Gymnasium check what you have built:
 #
 #     from gymnasium.utils.env_checker import check_env
 #     register_robot()
@@ -293,8 +285,7 @@ def register_robot() -> None:
 # %% [markdown]
 # ## Task 10.8. A package of its own
 #
-# To use the environment in other programs, or to give it to somebody, make an installable package
-# of it. It is a folder like this:
+# To give the environment to somebody, make an installable package of it. It is a folder like this:
 #
 #     balance_bot/                  what you hand on
 #       pyproject.toml              what it is called, and what it needs
@@ -354,18 +345,17 @@ gymnasium.register(
 # %% [markdown]
 # ## Task 10.9. Evolve a controller
 #
-# Any algorithm works now on your environment: all it needs is its name. For a robot this simple a
-# network without hidden neurons is enough. It has four parameters: the bias $b$ and the weights
-# $w_1$, $w_2$, $w_3$ of inclination, angular velocity and wheel speed, and the action is
+# For a robot this simple a network without hidden neurons is enough. It has four parameters: the bias
+# $b$ and the weights $w_1$, $w_2$, $w_3$ of inclination, angular velocity and wheel speed. The action
+# is
 #
 # $$a = b + w_1 o_1 + w_2 o_2 + w_3 o_3$$
 #
 # `robot = Robot("BalanceBotBulletEnv-v0", nhiddens=0)` is such a network, and
 # `robot.evaluate(population, seed, episodes=1, maxsteps=500)` measures a whole population, as in
-# exercise 3; a row of it is $(b, w_1, w_2, w_3)$. It must be registered before. Each step is
-# simulated by PyBullet now, which takes much longer than in exercise 3: be content with few
-# candidates and generations. On the other hand, the angles are small numbers, so useful weights
-# are large: vary them boldly.
+# exercise 3; a row of it is $(b, w_1, w_2, w_3)$. It must be registered before. PyBullet simulates
+# each step, which takes much longer than in exercise 3: be content with few candidates and
+# generations. The angles are small numbers, so useful weights are large: vary them boldly.
 
 
 # %%
@@ -395,17 +385,15 @@ def evolve(seed: int) -> np.ndarray:
 # %% [markdown]
 # ## Task 10.10. Train a controller
 #
-# Now by reinforcement learning. PPO of Stable-Baselines3 needs the name of the environment, too,
-# and a number of steps:
+# PPO of Stable-Baselines3 needs the name of the environment, too, and a number of steps:
 #
 #     model = PPO("MlpPolicy", "BalanceBotBulletEnv-v0", seed=seed, device="cpu")
 #     model.learn(total_timesteps)
 #
 # (`from stable_baselines3 import PPO`; inside the function, as it takes seconds to load.) Its
-# network of two hidden layers is made of plain numbers, and `actor_layers`, which is given, takes
-# them out: what comes back can be saved with `np.savez`, or run on a robot without any library. The
-# defaults learn too slowly here: shorter rollouts (`n_steps`) and a larger `learning_rate` help.
-# Exercises 13 and 14 are about what happens inside.
+# network of two hidden layers is made of plain numbers. `actor_layers`, which is given, takes them
+# out: they can be saved with `np.savez`, or run on a robot without any library. The defaults learn
+# too slowly here: shorter rollouts (`n_steps`) and a larger `learning_rate` help.
 
 
 # %%
@@ -451,9 +439,7 @@ def train(seed: int) -> list[list[np.ndarray]]:
 # %% [markdown]
 # ## The picture
 #
-# `botschool show 10` (or running this file once all tasks are done) evolves a controller and
-# trains another one, draws how far the robot leans in twenty episodes of each, films the evolved
-# one, and writes the package, ready to be installed.
+# `botschool show 10` runs this part.
 
 # %%
 if __name__ == "__main__":

@@ -13,8 +13,8 @@
 # %% [markdown]
 # # Exercise 11. Back-propagation
 #
-# The background is in `README.md`. Fill in the functions below one after another, and run
-# `make test-ex11` (or `botschool grade 11.1` for one task) as often as you like.
+# The text is `README.md`. Fill in the functions one after another. `botschool grade 11` grades
+# them, `botschool grade 11.1` one task.
 
 # %%
 """Exercise 11: a network that learns from examples; its gradient by hand and by torch."""
@@ -29,9 +29,8 @@ from torch import nn
 #
 # ## Task 11.1. The network
 #
-# Two layers: hidden neurons with the logistic function (torch calls it `torch.sigmoid`), and
-# linear outputs. `nn.Linear(a, b)` is a layer of b neurons that each see a inputs, weights and
-# biases included.
+# Hidden neurons with the logistic function (torch calls it `torch.sigmoid`), and linear outputs.
+# `nn.Linear(a, b)` is a layer of b neurons that each see a inputs, weights and biases included.
 
 
 # %%
@@ -64,23 +63,14 @@ class Network(nn.Module):
 # %% [markdown]
 # ## Task 11.2. The gradient by hand
 #
-# No torch here (it is refused), only NumPy and the formulas of `README.md`; differences
-# of the loss, (L(w + h) - L(w)) / h, are not exact enough. X holds the inputs (n rows), T the
-# targets (m columns). Forward:
-#
-# $$H = \mathrm{logistic}(X W_1^\top + b_1) \qquad Y = H W_2^\top + b_2 \qquad
-# L = \frac{1}{n m} \sum (Y - T)^2$$
-#
-# Backward, from the loss to the first layer:
-#
-# $$D_2 = \frac{2}{n m} (Y - T) \qquad D_1 = (D_2 W_2) \odot H \odot (1 - H)$$
+# Only NumPy and the formulas of `README.md`: torch is refused, and differences of the loss,
+# (L(w + h) - L(w)) / h, are not exact enough. X holds the inputs (n rows), T the targets (m columns).
+# The four gradients:
 #
 # $$\frac{\partial L}{\partial W_2} = D_2^\top H \qquad
 # \frac{\partial L}{\partial b_2} = \textstyle\sum_{rows} D_2 \qquad
 # \frac{\partial L}{\partial W_1} = D_1^\top X \qquad
 # \frac{\partial L}{\partial b_1} = \sum_{rows} D_1$$
-#
-# where $\odot$ multiplies element by element.
 
 
 # %%
@@ -118,7 +108,7 @@ def gradient_by_hand(
 #
 # torch keeps a record of what is computed from tensors that were made with `requires_grad=True`.
 # `loss.backward()` goes through this record backward, and leaves the gradient in the `.grad` of
-# each of them. So write only the forward part, and let torch do the rest.
+# each of them. So write only the forward part.
 
 
 # %%
@@ -152,9 +142,7 @@ def gradient_by_torch(
 #
 # An *epoch* is one pass through the training set. In each: clear the old gradient, compute the
 # outputs and the loss, go backward, step downhill. The optimiser is
-# `torch.optim.SGD(network.parameters(), lr=learning_rate, momentum=momentum)`. With momentum it
-# does not follow the gradient itself but a running sum of it, v <- momentum v + gradient, as a ball
-# that rolls.
+# `torch.optim.SGD(network.parameters(), lr=learning_rate, momentum=momentum)`.
 
 
 # %%
@@ -197,11 +185,10 @@ def train(
 # | 1, 1 | 0 |
 #
 # No straight line separates the two kinds, so no single neuron can tell them apart. Two hidden
-# neurons can, but they do not always find out: training may get stuck. Then begin anew.
+# neurons can, but training may get stuck. Then begin anew.
 #
-# The network must be trained, step by step along gradients (`train`, or those of task 11.2).
-# Weights that are written down or come from a formula do not count, here and in task 11.8. The
-# grader notes the weights at every gradient: small steps must lead to those that you return.
+# Here and in task 11.8 the network must be trained, step by step along gradients (`train`, or those of
+# task 11.2).
 
 
 # %%
@@ -226,9 +213,7 @@ def learn(inputs: torch.Tensor, targets: torch.Tensor, hiddens: int, seed: int) 
 # %% [markdown]
 # ## Task 11.6. Normalisation
 #
-# A sensor that reads from 990 to 1030 tells as much as one that reads from -1 to 1, but not to a
-# network: with such inputs all hidden neurons are saturated, all on or all off. So each column is
-# shifted and scaled to mean 0 and standard deviation 1.
+# Shift and scale each column to mean 0 and standard deviation 1.
 
 
 # %%
@@ -250,9 +235,7 @@ def normalise(inputs: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 # %% [markdown]
 # ## Task 11.7. Minibatches
 #
-# Why go through all patterns before making a step? A gradient from a few of them, chosen at
-# random, points nearly the same way and costs a fraction. So in each epoch the patterns are
-# shuffled, cut into *minibatches*, and each of these makes a step.
+# Shuffle the patterns in each epoch, cut them into minibatches, and step after each.
 
 
 # %%
@@ -301,9 +284,9 @@ def train_in_batches(
 # %% [markdown]
 # ## Task 11.8. Any training set
 #
-# Now all of it together, for data that you have not seen: a few hundred patterns of one to three
-# inputs, in any units, and one or two targets of ordinary size (about -3 to 3). What counts is
-# how well the network does on *other* patterns of the same kind.
+# All of it together, for data that you have not seen: a few hundred patterns of one to three inputs,
+# in any units, and one or two targets of ordinary size (about -3 to 3). What counts is how well the
+# network does on *other* patterns of the same kind.
 
 
 # %%
@@ -328,8 +311,8 @@ def fit(inputs: np.ndarray, targets: np.ndarray, seed: int) -> tuple:
 # %% [markdown]
 # ## Task 11.9. What the hidden neurons see
 #
-# With two inputs, every possible pattern is a point of a plane. Activate the network on a grid
-# of such points, and each hidden neuron gives a picture: its *feature*.
+# Activate the network on a grid of points of the input plane: each hidden neuron gives a picture, its
+# *feature*.
 
 
 # %%
@@ -352,8 +335,7 @@ def feature_maps(network: nn.Module, low: float, high: float, n: int) -> np.ndar
 # %% [markdown]
 # ## Features and losses
 #
-# `botschool show 11` (or running this file once all tasks are done) draws the features of three
-# trained networks, and shows what minibatches and normalisation are worth.
+# `botschool show 11` runs this part.
 
 # %%
 if __name__ == "__main__":

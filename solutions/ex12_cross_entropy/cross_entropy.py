@@ -13,8 +13,8 @@
 # %% [markdown]
 # # Exercise 12. Cross-entropy
 #
-# The background is in `README.md`. Fill in the functions below one after another, and run
-# `make test-ex12` (or `botschool grade 12.1` for one task) as often as you like.
+# The text is `README.md`. Fill in the functions one after another. `botschool grade 12` grades
+# them, `botschool grade 12.1` one task.
 
 # %%
 """Exercise 12: the cross-entropy method, with discrete and with continuous actions."""
@@ -56,9 +56,6 @@ def outputs_of(parameters: list[np.ndarray], observation: np.ndarray) -> np.ndar
 
 # %% [markdown]
 # ## Task 12.1. Softmax
-#
-# A policy with discrete actions has one output for each action, its *score*. Softmax makes
-# probabilities of them:
 #
 # $$p_i = \frac{e^{s_i}}{\sum_j e^{s_j}}$$
 
@@ -140,8 +137,7 @@ def run_episode(environment: str, act: Callable, seed: int, maxsteps: int = 200)
 # %% [markdown]
 # ## Task 12.4. The elite
 #
-# Only the best episodes teach: those with a return of at least the *bound*, the percentile of all
-# returns. With the percentile 70, about 30 % of the episodes are kept.
+# The best episodes are those with a return of at least the *bound*, the percentile of all returns.
 
 
 # %%
@@ -170,8 +166,7 @@ def elite(episodes: list[dict], percentile: float) -> dict:
 # %% [markdown]
 # ## Task 12.5. Cross-entropy
 #
-# The policy is to give the actions of the elite a high probability. What the loss measures is how
-# surprised it is by them, on average over the N steps:
+# The mean surprise over the N steps:
 #
 # $$L = -\frac{1}{N} \sum_t \ln p(a_t), \qquad \ln p(a) = s_a - \ln \sum_j e^{s_j}$$
 
@@ -231,10 +226,8 @@ def improve(
 # %% [markdown]
 # ## Task 12.7. Continuous actions
 #
-# A motor is no choice among a few. Here the outputs are the *means* of the action's numbers, and
-# chance comes from Gaussian noise. Its standard deviation $\sigma$ is learnt, too, one for each
-# number; the parameter is $\ln \sigma$, so that $\sigma$ can never become negative. The rest stays:
-# the loss is the average surprise again, with the density of the Gaussian for the probability.
+# The outputs are the means of the action's numbers. The standard deviation $\sigma$ is learnt, too,
+# one for each number; the parameter is $\ln \sigma$.
 #
 # $$L = \frac{1}{N} \sum_t \sum_i \left( \frac{(a_{ti} - \mu_{ti})^2}{2 \sigma_i^2}
 # + \ln \sigma_i + \frac{1}{2} \ln 2\pi \right)$$
@@ -277,10 +270,9 @@ def gaussian_loss(
 # best just for an easy start.
 #
 # The second environment is CartPole with a motor that pushes with any force: its action is a number
-# from -1 (10 N to the left) to 1 (10 N to the right).
-#
-# The policy must learn by your losses, from episodes in the environment that `gymnasium.make`
-# gives: when it is graded, the signs of what is observed and done there may differ from the usual.
+# from -1 (10 N to the left) to 1 (10 N to the right). The policy must learn by your losses, from
+# episodes in what `gymnasium.make` gives: when it is graded, the signs of what is observed and done
+# there may differ from the usual.
 
 
 # %%
@@ -354,9 +346,7 @@ def train(
 # %% [markdown]
 # ## Every episode a dot
 #
-# `botschool show 12` (or running this file once all tasks are done) trains policies for three
-# problems, Pendulum the last of them and the hardest, draws all episodes of the trainings and what
-# the policies do in which situation, and films the pendulum.
+# `botschool show 12` runs this part.
 
 # %%
 if __name__ == "__main__":

@@ -55,7 +55,7 @@ def episodes() -> None:
     for (name, rule), colour in zip(rules.items(), (RED, BLUE), strict=True):
         seen, _ = env.reset(seed=4)
         angles, ended = [np.degrees(seen[2])], False
-        while not ended and len(angles) < 201:
+        while not ended and len(angles) < 501:
             seen, _, ended, _, _ = env.step(rule(seen))
             angles.append(np.degrees(seen[2]))
         axes.plot(angles, color=colour, lw=2, label=name)
@@ -63,15 +63,15 @@ def episodes() -> None:
         if ended:
             axes.plot(end, angles[-1], "x", color=colour, ms=11, mew=3)
             axes.annotate(f"terminated: the pole has fallen (step {end})", (end, angles[-1]),
-                          (end + 7, -14.6), color=colour)  # fmt: skip
+                          (end + 17, -14.6), color=colour)  # fmt: skip
         else:
             axes.plot(end, angles[-1], "o", color=colour, ms=9)
-            axes.annotate("truncated: the time\nlimit is reached", (end, angles[-1]), (164, 3.2),
+            axes.annotate("truncated: the time limit\nof 500 steps is reached", (end, angles[-1]), (385, 3.2),
                           color=colour)  # fmt: skip
     for limit in (-12, 12):
         axes.axhline(limit, color=GREY, ls="--", lw=1)
     axes.axhspan(-12, 12, color=PALE, alpha=0.5, lw=0)
-    axes.set(xlabel="step", ylabel="angle of the pole (degrees)", ylim=(-16, 16), xlim=(-2, 205))
+    axes.set(xlabel="step", ylabel="angle of the pole (degrees)", ylim=(-16, 16), xlim=(-5, 513))
     axes.legend(frameon=False, loc="upper right", ncols=2)
     plain(axes)
     save(figure, "ex01_episodes")
