@@ -73,7 +73,7 @@ def advantages(
     - episode_starts: shape (steps, envs); 1.0 where a step is the first of an episode, else 0.0.
       So step t ended its episode if step t + 1 starts one.
     - last_values, dones: shape (envs,); the value of what was observed after the last step, and
-      whether the last step ended its episode (1.0 or 0.0).
+      whether that step ended its episode (1.0 or 0.0), which no later step can tell.
     """
     raise NotImplementedError("task 13.1: estimate the advantages")
 

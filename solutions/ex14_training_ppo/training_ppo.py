@@ -13,8 +13,8 @@
 # %% [markdown]
 # # Exercise 14. Training with PPO
 #
-# The background is in `README.md`. Fill in the functions below one after another, and run
-# `make test-ex14` (or `botschool grade 14.1` for one task) as often as you like.
+# The text is `README.md`. Fill in the functions one after another. `botschool grade 14` grades
+# them, `botschool grade 14.1` one task.
 
 # %%
 """Exercise 14: training with PPO, reading what it logs, and comparing."""
@@ -77,8 +77,7 @@ def train_variations(
 # %% [markdown]
 # ## Task 14.2. What was logged
 #
-# The folder of a training holds a file `events.out.tfevents...`, which TensorBoard shows in a
-# browser. You can read it yourself:
+# The folder of a training holds a file `events.out.tfevents...`, the log. You can read it yourself:
 #
 # - `log = EventAccumulator(folder, size_guidance={"scalars": 0})`, then `log.Reload()`. Without
 #   the 0, which means all, at most 10 000 values of each indicator are kept, and others are
@@ -113,10 +112,9 @@ def read_indicators(folder: str) -> dict:
 # %% [markdown]
 # ## Task 14.3. How successful was it?
 #
-# The return in the last post-evaluation is not the whole story: a training can be quick or slow,
-# and lose again what it had. With the mean returns $m_0, m_1, \ldots, m_n$ of the
-# post-evaluations after $s_0, s_1, \ldots, s_n$ steps, the average over the whole training is the
-# area under the curve, divided by its width:
+# A training can be quick or slow, and lose again what it had. With the mean returns
+# $m_0, m_1, \ldots, m_n$ of the post-evaluations after $s_0, s_1, \ldots, s_n$ steps, the average over
+# the whole training is the area under the curve, divided by its width:
 #
 # $$\bar m = \frac{1}{s_n - s_0} \sum_{i=1}^{n} (s_i - s_{i-1}) \frac{m_{i-1} + m_i}{2}$$
 
@@ -155,8 +153,7 @@ def success_of(steps: np.ndarray, returns: np.ndarray, goal: float) -> dict:
 # %% [markdown]
 # ## Task 14.4. The table
 #
-# A single training says little, as another seed may tell another story. So each variation gets one
-# row for all its seeds. Repeating a training with the *same* seed tells nothing new: it gives the
+# Each variation gets one row for all its seeds. Repeating a training with the *same* seed gives the
 # same numbers again, and counts once.
 
 
@@ -226,10 +223,9 @@ def chance_of(first: list[float], second: list[float]) -> float:
 # %% [markdown]
 # ## Task 14.6. Warning signs
 #
-# Whoever watches a training looks for signs that something is wrong. These are rules of thumb; at
-# the end you will see how far they can be trusted. A sign names an indicator, whether it is a bad
-# sign if that is `"above"` or `"below"` a limit, and the limit. What counts is the mean in the
-# last third of the training.
+# A sign names an indicator, whether it is a bad sign if that is `"above"` or `"below"` a limit, and
+# the limit. What counts is the mean in the last third of the training. These are rules of thumb; at
+# the end you will see how far they can be trusted.
 
 # %%
 SIGNS = {
@@ -285,9 +281,9 @@ def warning_signs(indicators: dict, total: int, signs: dict) -> list[str]:
 # %% [markdown]
 # ## Task 14.7. Which indicators go with success?
 #
-# Take one number of each training, such as its mean entropy, and its success. If the trainings with
-# more of the one have more of the other, both put the trainings in the same order. So replace each
-# number by its *rank* (1 for the smallest) and compute the correlation of the ranks:
+# Take one number of each training, such as its mean entropy, and its success. Do both put the
+# trainings in the same order? Replace each number by its *rank* (1 for the smallest) and compute the
+# correlation of the ranks:
 #
 # $$\rho = \frac{\sum_i (a_i - \bar a)(b_i - \bar b)}
 # {\sqrt{\sum_i (a_i - \bar a)^2 \sum_i (b_i - \bar b)^2}}$$
@@ -334,15 +330,14 @@ def within_variants(numbers: np.ndarray, variants: list[str]) -> np.ndarray:
 # %% [markdown]
 # ## Task 14.8. Evolution and PPO at equal steps
 #
-# The tool counts the steps of a run of evolution with those of its post-evaluations, the steps of a
-# training without. For a comparison both must count alike, and both must show the same: the best
-# post-evaluation so far.
+# Both sides must count all steps alike and show the best post-evaluation so far.
 #
 # - `read_stat(file)` gives the stat file of a run of evolution as an array of shape
 #   (generations, 6). Its first column holds the steps, post-evaluations included, its third one
 #   (number 2) the best post-evaluation so far (exercise 4).
 # - `RunFolder(folder).evaluations()` gives the post-evaluations of a training: `.steps` of shape
-#   (n,), `.returns` and `.lengths` of shape (n, episodes), the lengths in steps.
+#   (n,), those of the training alone; `.returns` and `.lengths` of shape (n, episodes), the lengths
+#   in steps.
 
 
 # %%
@@ -396,13 +391,8 @@ def at_equal_steps(groups: dict[str, list[dict]], points: int) -> dict:
 # %% [markdown]
 # ## Two problems, some variations, and evolution beside them
 #
-# `botschool show 14` (or running this file once all tasks are done) trains PPO on CartPole, whose
-# policy chooses left or right, and on Pendulum, whose policy draws a torque from a Gaussian. Both
-# are among the problems that the tool simulates and trains in C++, so a training takes a second or
-# less. Each variation has three seeds here: they show that your code works, and tell little. Change
-# SEEDS to ten, and problems, variations and steps as you like: that is what this exercise is for.
-# Problems that the tool has not in C++, such as botschool/PushedCartPole-v0, are trained by
-# Stable-Baselines3 and take far longer.
+# `botschool show 14` runs this part. Set SEEDS to ten, and change problems, variations and STEPS as
+# you like.
 
 # %%
 PROBLEMS = {

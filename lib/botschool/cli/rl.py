@@ -10,10 +10,47 @@ import typer
 
 UsageError: Any = typer.BadParameter.__base__  # from Typer's own click or the installed one
 app = typer.Typer(
-    help="Train agents by reinforcement learning (Stable-Baselines3), and watch them.",
     no_args_is_help=True,
     rich_markup_mode="markdown",
 )
+
+
+def _explain(wanted: bool) -> None:
+    if not wanted:
+        return
+    from rich.console import Console
+    from rich.markup import escape
+    from rich.table import Table
+
+    from botschool.rl.explained import EXPLAINED, OF
+
+    console = Console()
+    for group, algorithms in OF.items():
+        table = Table("Hyperparameter", "Default", "What it does", "Where it matters")
+        table.title = f"Of {algorithms}"
+        for of, *row in EXPLAINED:
+            if of == group:
+                table.add_row(*map(escape, row))
+        console.print(table)
+    console.print(
+        "Many problems have defaults of their own: lib/botschool/rl/defaults.yaml. To change some: "
+        "botschool rl train --algo ppo --env CartPole-v1 --params gamma=0.9 n_epochs=5",
+        markup=False,
+    )
+    raise typer.Exit
+
+
+@app.callback(epilog="Example: botschool rl --explain")
+def rl(
+    explain: Annotated[
+        bool,
+        typer.Option(
+            "--explain", callback=_explain, is_eager=True, help="Explain each hyperparameter."
+        ),
+    ] = False,
+) -> None:
+    """Train agents by reinforcement learning (Stable-Baselines3), and watch them."""
+
 
 RlFolder = Annotated[
     Path, typer.Option("-o", "--output", help="Folder of the trainings.", metavar="FOLDER")

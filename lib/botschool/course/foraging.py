@@ -134,7 +134,7 @@ def draw_mind(file: str | Path, title: str, episode: dict, reactions: np.ndarray
         ):
             axes.plot(np.arange(steps) + 0.5, wheel, color=colour, lw=1.2, label=name)
         axes.axhline(0, color="black", lw=0.6)
-        axes.set_ylabel(label)
+        axes.set(ylabel=label, ylim=(-1.1, 1.1))  # the same for both, to compare
         axes.spines[["top", "right"]].set_visible(False)
         for step in np.flatnonzero(np.diff(np.r_[0, episode["rewards"], 0]) > 0):
             axes.axvline(step, color=_colour("goal"), lw=1.5, ls="--")

@@ -62,8 +62,9 @@ def draw_hidden_layer(
 
     stages: title -> (layers, observations (N, observed), activations (N, neurons), responses
     (neurons, observed)). On the left are the sorted responses of all neurons. On the right are the
-    activations of `shown` neurons over the two observed numbers `axes`, with the others 0 and the
-    observations as dots: first the neuron that follows each observed number best, then the neurons
+    activations of `shown` neurons over the two observed numbers `axes` (a neuron that follows
+    another number best: over that one and axes[1]), with the others 0 and the observations as
+    dots: first the neuron that follows each observed number best, then the neurons
     whose activation varies most. hidden(layers, observations) returns the activations of each
     layer. names: the names of the observed numbers.
     """
@@ -83,11 +84,12 @@ def draw_hidden_layer(
         whole.set(ylabel="hidden neurons, sorted", yticks=[])
         part.colorbar(image, ax=whole, label="correlation")
         for neuron, panel in zip(_telling(activations, responses, shown), panels, strict=True):
-            _draw_field(panel, neuron, layers, seen, axes, hidden)
-            best = names[int(strongest[neuron])]
-            value = responses[neuron, strongest[neuron]]
-            panel.set_title(f"neuron {neuron}: {value:+.2f}\n{best}", fontsize=8)
-            panel.set_xlabel(names[axes[0]], fontsize=8)
+            best = int(strongest[neuron])
+            plane = axes if best in axes else (best, axes[1])
+            _draw_field(panel, neuron, layers, seen, plane, hidden)
+            value = responses[neuron, best]
+            panel.set_title(f"neuron {neuron} follows\n{names[best]} ({value:+.2f})", fontsize=8)
+            panel.set_xlabel(names[plane[0]], fontsize=8)
             panel.tick_params(labelsize=7)
         panels[0].set_ylabel(names[axes[1]], fontsize=8)
     figure.savefig(file, dpi=100)
