@@ -139,7 +139,9 @@ def test_an_exercise_without_its_packages_says_what_to_install(sixteen, monkeypa
     )
     trust(sixteen[0])
     exercise = load_exercise(13, sixteen[0])
-    with pytest.raises(BotschoolError, match=r"needs stable-baselines3.*make test-ex13.*\[rl\]"):
+    with pytest.raises(
+        BotschoolError, match=r"needs stable-baselines3.*botschool start 13.*\[rl\]"
+    ):
         exercise.require()
     job = batch.Job(13, submission_file(13, "solutions", sixteen[0]))
     result = batch.Grades(sixteen[0]).of([job], 1)[job]

@@ -507,7 +507,7 @@ def test_notebook(course, monkeypatch):
     monkeypatch.setattr(starting.subprocess, "run", run)
     file = course / "exercises" / FOLDER / FILE
     monkeypatch.setattr(starting, "find_spec", lambda name: name != "jupytext")
-    with pytest.raises(BotschoolError, match="make notebook-ex3"):
+    with pytest.raises(BotschoolError, match=r"pip install botschool\[notebook\]"):
         starting.open_notebook(3, file, course)
     assert not called
     monkeypatch.setattr(starting, "find_spec", lambda name: True)
@@ -515,6 +515,32 @@ def test_notebook(course, monkeypatch):
     ((command, env),) = called
     assert command[-1].endswith(f"=/lab/workspaces/tiny/tree/exercises/{FOLDER}/{FILE}")
     assert env["JUPYTER_CONFIG_PATH"].startswith(str(course.resolve() / ".botschool"))
+
+
+def test_start_installs_what_is_missing_in_the_courses_own_environment(course, monkeypatch):
+    """With its set-up, once for each extra; in another environment, or again, nothing happens."""
+    ran = []
+    monkeypatch.setattr(starting, "missing_packages", lambda extras: [*extras])
+    monkeypatch.setattr(
+        starting.subprocess, "run",
+        lambda command, cwd: ran.append(command[2:]) or subprocess.CompletedProcess(command, 0),
+    )  # fmt: skip
+    (course / "tools").mkdir()
+    (course / "tools" / "setup.sh").write_text("")
+    starting.install(("rl",), course)
+    assert not ran
+    monkeypatch.setattr(starting.sys, "prefix", str(course / ".venv"))
+    (course / ".venv").mkdir()
+    starting.install(("rl", "notebook"), course)
+    assert ran == [["extra", "rl"], ["extra", "notebook"]]
+    (course / ".venv" / ".extra-rl").touch()
+    starting.install(("rl",), course)
+    assert len(ran) == 2
+    monkeypatch.setattr(
+        starting.subprocess, "run", lambda command, cwd: subprocess.CompletedProcess(command, 2)
+    )
+    with pytest.raises(BotschoolError, match="'box2d' are not installed"):
+        starting.install(("box2d",), course)
 
 
 @pytest.mark.parametrize("released", [False, True])
@@ -528,7 +554,7 @@ def test_start_and_reset(course, tmp_path, monkeypatch, released):
     skeleton = file.read_text()
     code, out, _ = call("start", "3", cwd=root)
     assert code == 0 and "Exercise 3. Tiny" in out and f"exercises/{FOLDER}/README.md" in out
-    assert "make notebook-ex3" in out
+    assert "botschool start 3 --notebook" in out
     assert "back at its beginning.\n" in call("reset", "3", cwd=root)[1]
     for number in (1, 2):
         file.write_text(f"{SOLUTION}# {number}\n")

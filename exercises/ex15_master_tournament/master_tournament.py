@@ -13,8 +13,8 @@
 # %% [markdown]
 # # Exercise 15. The master tournament
 #
-# The background is in `README.md`. Fill in the functions below one after another, and run
-# `make test-ex15` (or `botschool grade 15.1` for one task) as often as you like.
+# The text is `README.md`. Fill in the functions one after another. `botschool grade 15` grades
+# them, `botschool grade 15.1` one task.
 #
 # Ready-made:
 #
@@ -67,9 +67,8 @@ def chase(predator: np.ndarray, prey: np.ndarray, maxsteps: int = 2000) -> dict:
 # %% [markdown]
 # ## Task 15.2. Everybody meets everybody
 #
-# Now let the predators of all generations meet the prey of all generations. One chase after
-# another in Python would take long, so write down the pairs and let `play` do all of them: with
-# two predators and three prey these are (0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2).
+# One chase after another in Python would take long, so write down the pairs and let `play` do all of
+# them: with two predators and three prey these are (0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2).
 
 
 # %%
@@ -86,9 +85,8 @@ def tournament(predators: list, prey: list, maxsteps: int = 2000) -> np.ndarray:
 # %% [markdown]
 # ## Task 15.3. The master matrix
 #
-# Too many numbers to look at. A generation is as good as its individuals are on average, so take
-# the mean over individuals of both sides: one number for two generations. For each side there is a
-# matrix, in which a *row* is one of its own generations and a *column* a generation of its
+# Take the mean over individuals of both sides: one number for two generations. For each side there is
+# a matrix, in which a *row* is one of its own generations and a *column* a generation of its
 # competitors. What the predator gets, the prey lacks of 1.
 
 
@@ -143,10 +141,10 @@ def profile(matrix: np.ndarray) -> dict:
 # with all their ancient competitors $k < g$. In which *share* of these cases does $g$ do better
 # than its predecessor? A case in which both do equally well counts half.
 #
-# Strategies may also go in circles, as in the game of rock, paper and scissors. Let two generations
-# $a$ and $b$ play a return match: the predators of $a$ against the prey of $b$, and the predators
-# of $b$ against the prey of $a$. If $f(a, b) > f(b, a)$ in the *predators'* matrix, then $a$ has
-# won. Three generations are a *cycle* if each of them has won one match and lost the other.
+# For circles let two generations $a$ and $b$ play a return match: the predators of $a$ against the
+# prey of $b$, and the predators of $b$ against the prey of $a$. If $f(a, b) > f(b, a)$ in the
+# *predators'* matrix, then $a$ has won. Three generations are a *cycle* if each of them has won one
+# match and lost the other.
 
 
 # %%
@@ -204,9 +202,7 @@ def red_queen(matrix: np.ndarray) -> dict:
 # %% [markdown]
 # ## Task 15.7. How sure is it?
 #
-# With other individuals of the same populations, all numbers would be a little different. How
-# different? Draw the individuals anew, again and again, from those that there are (the
-# *bootstrap*). For each resample
+# For each resample
 #
 # 1. draw n predators of each generation, with replacement:
 #    `rng.integers(n, size=(G, n))`, whose row g are the individuals of generation g;
@@ -230,8 +226,8 @@ def interval(table: np.ndarray, measure, rng: np.random.Generator, resamples: in
 # %% [markdown]
 # ## Task 15.8. How do they behave?
 #
-# What a robot does is in the poses of a chase. Step t goes from poses[t] to poses[t + 1] and lasts
-# a tenth of a second. Of each robot, the predator first:
+# Step t goes from poses[t] to poses[t + 1] and lasts a tenth of a second. Of each robot, the predator
+# first:
 #
 # - "speed": how far it moves, in mm per second;
 # - "turning": by how much its heading changes, the short way around and without its sign, in rad
@@ -259,8 +255,7 @@ def describe(poses: np.ndarray) -> dict:
 # %% [markdown]
 # ## The tournament
 #
-# `botschool show 15` (or running this file once all tasks are done) takes your own run (see
-# README.md) or, if there is none, the one that the course has evolved.
+# `botschool show 15` runs this part.
 
 # %%
 if __name__ == "__main__":

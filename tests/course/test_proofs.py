@@ -95,7 +95,8 @@ def test_text_names_tasks_and_times(number):
         ]
         assert lines, f"README.md does not name task {task.id}"
         assert any(re.search(r"\d+ *min", line) for line in lines), f"no time for task {task.id}"
-    assert f"make test-ex{number}" in text
+    assert f"`botschool grade {number}`" in text
+    assert not re.search(r"\bmake (test|notebook)", text), "students type botschool, not make"
     assert f"botschool show {number}`" in text
     assert (building.ROOT / "solutions" / building.source(number).folder / "README.md").is_file()
 

@@ -291,7 +291,7 @@ def start_command(what: str, notebook: bool) -> None:
 
     notebook: whether to open it as a notebook, until Ctrl-C.
     """
-    from botschool.grading.copies.starting import open_notebook, start
+    from botschool.grading.copies.starting import install, open_notebook, start
 
     number, root = _named(what)[0], course_root()
     exercise = load_exercise(number, root)
@@ -304,7 +304,8 @@ def start_command(what: str, notebook: bool) -> None:
         console.print("  (it was missing; botschool has made it)")
     console.print(f"  {'Grade':<11}botschool grade {number}, or botschool watch {number}")
     console.print(f"  {'A hint':<11}botschool hint {number}.1")
-    console.print(f"  {'A notebook':<11}make notebook-ex{number} opens your file as one")
+    console.print(f"  {'A notebook':<11}botschool start {number} --notebook opens your file as one")
+    install([*exercise.extras, *(["notebook"] if notebook else [])], root)
     exercise.require_some(exercise.tasks)
     if notebook:
         open_notebook(number, file, root)

@@ -7,6 +7,8 @@ import os
 import signal
 import subprocess
 import sys
+from collections.abc import Iterable
+from importlib import invalidate_caches
 from importlib.util import find_spec
 from itertools import count
 from pathlib import Path
@@ -15,7 +17,12 @@ from urllib.parse import quote
 from botschool.errors import BotschoolError
 from botschool.grading.copies.release import MANIFEST
 from botschool.grading.copies.skeleton import skeleton
-from botschool.grading.declare.exercise import folder_of, load_exercise, make_state
+from botschool.grading.declare.exercise import (
+    folder_of,
+    load_exercise,
+    make_state,
+    missing_packages,
+)
 from botschool.output import save_bytes
 
 
@@ -64,6 +71,21 @@ def reset(number: int, root: Path) -> tuple[Path, Path | None]:
     return file, kept
 
 
+def install(extras: Iterable[str], root: Path) -> None:
+    """Install packages of pyproject.toml's extras where botschool runs in the course's own .venv.
+
+    Elsewhere nothing happens. Raises BotschoolError if the installation fails.
+    """
+    setup = root / "tools" / "setup.sh"
+    if Path(sys.prefix).resolve() != (root / ".venv").resolve() or not setup.is_file():
+        return
+    for extra in extras:
+        if missing_packages((extra,)) and not (root / ".venv" / f".extra-{extra}").exists():
+            if subprocess.run(["sh", str(setup), "extra", extra], cwd=root).returncode:
+                raise BotschoolError(f"The packages of '{extra}' are not installed (see above).")
+            invalidate_caches()
+
+
 VIEWER = {
     "@jupyterlab/docmanager-extension:plugin": {"defaultViewers": {"python": "Jupytext Notebook"}}
 }
@@ -106,8 +128,8 @@ def open_notebook(number: int, file: Path, root: Path) -> None:
     """Run JupyterLab with the file open, until Ctrl-C. Raises BotschoolError."""
     if not all(map(find_spec, ("jupyterlab", "jupytext"))):
         raise BotschoolError(
-            "A notebook needs JupyterLab and jupytext: install them and open it with 'make "
-            f"notebook-ex{number}'."
+            "A notebook needs JupyterLab and jupytext: install them with "
+            "'pip install botschool[notebook]'."
         )
     before = signal.signal(signal.SIGINT, lambda *_: None)  # JupyterLab handles Ctrl-C
     try:

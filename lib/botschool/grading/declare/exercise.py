@@ -175,8 +175,8 @@ class Exercise:
             wanted = tuple(e for e in wanted if any(e in task.extras for task in tasks))
         if missing := missing_packages(wanted):
             raise BotschoolError(
-                f"Exercise {self.number} needs {listed(missing)}: install this with 'make "
-                f"test-ex{self.number}' or 'pip install "
+                f"Exercise {self.number} needs {listed(missing)}: install this with 'botschool "
+                f"start {self.number}' in a course that made its own .venv, else with 'pip install "
                 f"botschool[{','.join(wanted)}]'."
             )
 
