@@ -3,6 +3,7 @@
 import importlib
 import json
 import os
+import re
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -21,8 +22,8 @@ from botschool.labs.commands import lead_to, run_command
 from botschool.labs.confined import drawn_figure, student_file
 from botschool.labs.declare import NUMBERS, PARTS, WORDS, Field, load_lab
 from botschool.labs.folder import Place, skeletons, start
-from botschool.labs.measuring import interval, permutation_test
-from botschool.labs.report import _inline
+from botschool.labs.measuring import _row, interval, paired_test, permutation_test
+from botschool.labs.report import _inline, write_report
 from botschool.labs.runs import changed, make_runs
 from botschool.labs.saved import stat_of
 from botschool.labs.sheet import Sheet, Unreadable, base_seed, numbers_in, seeds_of
@@ -261,11 +262,57 @@ def test_one_rule_for_all_robots_is_refused():
     assert "the same" in separate([far | {"statue": 1.0}, near])
 
 
-def test_a_report_shows_answers_boxes_and_code():
-    shown = _inline("`answer: <b>` is *it* [x] left   [ ] tall\nP: answer: 5 < 6")
-    assert "<code>answer: &lt;b&gt;</code> is <em>it</em>" in shown
-    assert "&#9745; left</b>" in shown and "&#9744; tall</span>" in shown
-    assert '<b class="answer">5 &lt; 6</b>' in shown
+def test_a_report_begins_with_prediction_and_findings_and_repeats_no_instruction(tmp_path):
+    """Answers and code are escaped; the table is the student's own, with its intervals."""
+    assert call("lab", "3", "start", "--name", "Ada <b>", cwd=tmp_path)[0] == 0
+    place = Place.of(3, tmp_path)
+    sheet = place.folder / "sheet.md"
+    text = sheet.read_text().replace(
+        "| CartPole 20 | | | | |", "| CartPole 20 | 9 | 100 | 499 | 498 to 500 |"
+    )
+    for line in ("[ ] 4   [ ] 20   [ ] 100   [ ] no difference",):
+        text = text.replace(line, line.replace("[ ] 20", "[x] 20"))
+    text = text.replace(
+        "<!-- field: p-cartpole --> answer:", "<!-- field: p-cartpole --> answer: 0.5"
+    )
+    sheet.write_text(text)
+    checked = Check(place).all()
+    page = write_report(place, checked, tmp_path).read_text()
+    order = ["You predicted", "Which population solves CartPole first", "You found", "0.5",
+             "498 to 500", "Points"]  # fmt: skip
+    assert [page.index(each) for each in order] == sorted(page.index(each) for each in order)
+    assert "Ada &lt;b&gt;" in page and '<b class="answer">20</b>' in page
+    assert "Write it before you run" not in page and "measure(run)" not in page.split("Points")[0]
+    assert "<code>a &lt; b</code> is <em>it</em>" in _inline("`a < b` is *it*")
+
+
+def test_a_sheet_says_all_that_decides_its_runs(tmp_path):
+    for number in NUMBERS:
+        lab = load_lab(number)
+        sheet = skeletons(lab)["sheet.md"]
+        for condition in lab.conditions:
+            for section in condition.experiment.values():
+                for name, value in section.items() if isinstance(section, dict) else ():
+                    row = re.search(rf"^\| `{name}` \| (.*) \|$", sheet, re.MULTILINE)
+                    if name == "maxmsteps" and condition.generations:
+                        row = re.search(r"^\| `generations` \| (.*) \|$", sheet, re.MULTILINE)
+                        value = condition.generations
+                    assert row and str(value).strip("[]") in row[1], (number, name)
+        if any("post-evaluated" in line for line in sheet.split("## Measurements")[1].split("\n")):
+            assert "*post-evaluated*" in sheet
+
+
+def test_a_list_where_one_number_belongs_is_refused():
+    """In measure_all, and of pairs: lists of other lengths would be stretched silently."""
+    assert _row({"fresh": 1.0}, "late") == {"fresh": 1.0}
+    for wrong in ([1.0, 2.0], np.zeros(100), [1.0], []):
+        with pytest.raises(BotschoolError, match=r"of late returns \d+ numbers .* 'fresh'"):
+            _row({"fresh": wrong}, "late")
+    with pytest.raises(BotschoolError, match="dict of numbers"):
+        _row([1.0], "late")
+    for other in (np.zeros(9), np.zeros(1), 0.0):
+        with pytest.raises(BotschoolError, match="the same runs, not 10 and"):
+            paired_test(np.zeros(10), other)
 
 
 def test_statistics():

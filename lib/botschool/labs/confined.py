@@ -24,7 +24,8 @@ SECONDS = 30
 def student_file(path: Path) -> Iterator[Student]:
     """Yield a file alone in a child process. Raises Wrong if there is no such file."""
     if path.is_symlink() or not path.is_file():
-        raise Wrong(f"{path.name} is missing: botschool lab N start makes it again.")
+        number = path.resolve().parent.name.removeprefix("lab").lstrip("0")
+        raise Wrong(f"{path.name} is missing: botschool lab {number} start makes it again.")
     with temporary_folder() as folder:
         copy = folder / "submitted" / path.name
         copy.parent.mkdir()
@@ -48,7 +49,7 @@ def measured(student: Student, run: dict[str, Any], names: tuple[str, ...]) -> d
         except KeyError:
             raise Wrong(f"measure(run) returns no '{name}': add it to the dict.") from None
         except (TypeError, ValueError, OverflowError):
-            raise Wrong(f"measure(run)['{name}'] is not a number.") from None
+            raise Wrong(f"measure(run)['{name}'] is not one number.") from None
         if not np.isfinite(value):
             raise Wrong(f"measure(run)['{name}'] is {value}: it must be a finite number.")
         values[name] = value

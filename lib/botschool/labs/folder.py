@@ -7,6 +7,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from textwrap import indent
+from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.labs.declare import STRATEGY, Lab, load_lab
@@ -37,7 +38,10 @@ class Place:
         """Return the place of a folder, whose name tells the laboratory. Raises BotschoolError."""
         found = re.fullmatch(r"lab(\d\d)", folder.resolve().name)
         if not found:
-            raise BotschoolError(f"{folder.resolve()} is no folder of a laboratory: go to lab09.")
+            raise BotschoolError(
+                f"{folder.resolve()} is no folder of a laboratory (labNN): keep the laboratory's "
+                "files where 'botschool lab' made them."
+            )
         return cls(load_lab(int(found[1])), folder)
 
     @property
@@ -55,11 +59,67 @@ class Place:
         return Sheet.read(self.folder / "sheet.md")
 
 
+SAME = "maxmsteps"
+"""The budget in million steps, which counts unless a condition says how many generations."""
+POST_EVALUATED = """\
+After each generation the best robot is *post-evaluated*: it plays `pepisodes` further episodes,
+the same for all generations of a run. Their mean is its post-evaluated fitness. The best robot of a
+run is the one with the highest.
+
+"""
+
+
+def settings(lab: Lab) -> str:
+    """Return all that decides a run of the laboratory, as a table: setting, value in the runs."""
+    values: dict[str, dict[str, list[str]]] = {}
+    for condition in lab.conditions:
+        told: dict[str, Any] = {}
+        for name, section in condition.experiment.items():
+            told |= section if isinstance(section, dict) else {name: section}
+        if condition.generations:
+            told = {k: v for k, v in told.items() if k != SAME}
+            told["generations"] = condition.generations
+        for name, value in told.items():
+            shown = ", ".join(map(str, value)) if isinstance(value, list) else str(value)
+            values.setdefault(name, {}).setdefault(shown, []).append(condition.name)
+    rows = [f"| `{name}` | {_value(found, lab)} |" for name, found in values.items()]
+    meets = any(c.experiment["exp"]["algo"] == "coevo2" for c in lab.conditions)
+    trains = any(c.kind == "training" for c in lab.conditions)
+    lists = "`botschool es` and `botschool rl --explain` list" if trains else "`botschool es` lists"
+    return (
+        f"{'' if meets else POST_EVALUATED}These settings decide a run. All others have their "
+        f"defaults:\n{lists} and explain{'' if trains else 's'} them.\n\n"
+        "| setting | value |\n|---|---|\n" + "\n".join(rows)
+    )
+
+
+def _value(found: dict[str, list[str]], lab: Lab) -> str:
+    """Return the values of a setting: the commonest first, the conditions with each other one."""
+    (usual, where), *others = sorted(found.items(), key=lambda each: -len(each[1]))
+    if not others and len(where) == len(lab.conditions):
+        return usual
+    if len(others) > 2 or len(where) <= len(lab.conditions) / 2:
+        return "; ".join(f"{value} ({_together(names, lab)})" for value, names in found.items())
+    return usual + "".join(f"; {value} in {_together(names, lab)}" for value, names in others)
+
+
+def _together(names: list[str], lab: Lab) -> str:
+    """Return names of conditions; those that share their first word, if all are there, by it."""
+    groups: dict[str, list[str]] = {}
+    for condition in lab.conditions:
+        groups.setdefault(condition.name.split()[0], []).append(condition.name)
+    told = []
+    for word, group in groups.items():
+        here = [name for name in group if name in names]
+        told += [word] if here == group and len(groups) > 1 else here
+    return ", ".join(told)
+
+
 def skeletons(lab: Lab) -> dict[str, str]:
     """Return the files that the student's folder gets: name -> text."""
     here = Path(__file__).parent
     sheet, *parts = FILE.split((here / f"{lab.name}.md").read_text(encoding="utf-8"))
-    files = {"sheet.md": sheet.rstrip() + "\n"}
+    files = {"sheet.md": sheet.rstrip().replace("{SETTINGS}", settings(lab)) + "\n"}
     for name, text in zip(parts[::2], parts[1::2], strict=True):
         files[name] = text.strip().removeprefix("```python\n").removesuffix("```")
     told = indent(files["figure.py"], "    ").strip()

@@ -60,8 +60,8 @@ def decided(a: np.ndarray, b: np.ndarray, p: float, labels: tuple[str, str], tes
     if NEAR[0] < p < NEAR[1]:
         right = {winner, CANNOT_TELL}
     told = (
-        f"means of {a.mean():.4g} and {b.mean():.4g}, p = {p:.3g} ({test}): "
-        f"your runs support '{sorted(right)[0]}'."
+        f"the {test} of your runs does not support this answer: compare the two means, and its p "
+        f"with {LEVEL}."
     )
     return lambda answer: answer in right, told
 
@@ -76,7 +76,10 @@ def p_of(test: Callable[[Data], float]) -> Callable[[Data, Answers], Judged]:
 
     def judge(data: Data, answers: Answers) -> Judged:
         p = test(data)
-        return lambda answer: abs(answer - p) <= 0.01 + 0.2 * p, f"your runs give p = {p:.3g}."
+        return (
+            lambda answer: abs(answer - p) <= 0.01 + 0.2 * p,
+            "your runs give another p: compute it again.",
+        )
 
     return judge
 
@@ -86,7 +89,7 @@ def powerful(measure: str, one: str, other: str, runs: int) -> Callable[[Data, A
 
     def judge(data: Data, answers: Answers) -> Judged:
         found = 100 * power(data[one][measure], data[other][measure], runs)
-        told = f"resampling your runs, {runs} of each, gives {found:.0f} of 100."
+        told = f"resampling your runs, {runs} of each, gives another share: use power."
         return lambda answer: abs(answer - found) <= 12, told
 
     return judge

@@ -29,14 +29,11 @@ def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
 
 
 SIZES = (4, 20, 100)
+MUTRATE = 0.4
+"""For both problems: 0.1 is too small for Pendulum, and no size of population makes up for it."""
 PROBLEMS = {
-    "CartPole": {"environment": "CartPole-v1", "maxsteps": 500, "mutrate": 0.1, "evaluations": 600},
-    "Pendulum": {
-        "environment": "Pendulum-v1",
-        "maxsteps": 200,
-        "mutrate": 0.4,
-        "evaluations": 4000,
-    },
+    "CartPole": {"environment": "CartPole-v1", "maxsteps": 500, "evaluations": 600},
+    "Pendulum": {"environment": "Pendulum-v1", "maxsteps": 200, "evaluations": 4000},
 }
 
 
@@ -57,7 +54,7 @@ def condition(problem: str, size: int) -> Condition:
                 "out_type": 3,
                 "winit": 0,
             },
-            "algo": {"maxmsteps": 100, "popsize": size, "mutrate": told["mutrate"]},
+            "algo": {"maxmsteps": 100, "popsize": size, "mutrate": MUTRATE},
         },
         generations=told["evaluations"] // size,
         x=size,
@@ -73,7 +70,7 @@ def lost(problem: str) -> Any:
             for size in SIZES
         ]
         found = float(np.concatenate(each).mean())
-        told = f"the mean over your {problem} runs is {found:.4g}."
+        told = f"compute the mean of reported - fresh over all your {problem} runs again."
         return lambda answer: abs(answer - found) <= 0.5 + 0.02 * abs(found), told
 
     return judge

@@ -88,8 +88,8 @@ def strongest(problem: str) -> Callable[[Data, Answers], Judged]:
         right = winners if least < LEVEL else {CANNOT_TELL}
         if NEAR[0] < least < NEAR[1]:
             right = winners | {CANNOT_TELL}
-        told = f"the smallest p is {least:.4f}, of {' and '.join(sorted(winners))}"
-        return lambda answer: answer in right, f"{told}, and {LEVEL:.4f} is needed with six tests."
+        told = f"look for the smallest of the six p; it must be below {LEVEL:.4f} to count."
+        return lambda answer: answer in right, told
 
     return judge
 
@@ -98,15 +98,14 @@ def count(data: Data, answers: Answers) -> Judged:
     """Judge how many changes matter on Pendulum."""
     p = list(tests(data, "Pendulum").values())
     low, high = (sum(value < level for value in p) for level in NEAR)
-    told = sum(value < LEVEL for value in p)
-    return lambda answer: low <= answer <= high, f"{told} of your six p are below {LEVEL:.4f}."
+    return lambda answer: low <= answer <= high, f"count which of your six p are below {LEVEL:.4f}."
 
 
 def luck(data: Data, answers: Answers) -> Judged:
     """Judge how much of the reported fitness is luck."""
     runs = [data[f"Acrobot {name}"] for name in CHANGES]
     found = float(np.concatenate([each["reported"] - each["fresh"] for each in runs]).mean())
-    told = f"the mean over your Acrobot runs is {found:.4g}."
+    told = "compute the mean of reported - fresh over all your Acrobot runs again."
     return lambda answer: abs(answer - found) <= 0.2 + 0.02 * abs(found), told
 
 
@@ -115,7 +114,7 @@ def episodes(data: Data, answers: Answers) -> Judged:
     runs = data[f"Pendulum {BASE}"]
     apart = max(float(runs["fresh"].std(ddof=1)), 1e-9)
     found = (4 * float(runs["spread"].mean()) / apart) ** 2
-    told = f"(4 x {runs['spread'].mean():.1f} / {apart:.1f}) squared is {found:.3g} episodes."
+    told = "it is (4 x mean spread / standard deviation of fresh) squared, of the base's ten runs."
     return lambda answer: abs(answer - found) <= 1.5 + 0.05 * found, told
 
 

@@ -95,7 +95,7 @@ def grouped(data: Data) -> list[list[set[int]]]:
 def counted(data: Data, answers: Answers) -> Judged:
     """Judge the number of families."""
     counts = [len(groups) for groups in grouped(data)]
-    told = f"the descriptors of your robots give {counts[1]} families."
+    told = "group the descriptors of your robots again, as the sheet says."
     return lambda answer: answer in counts, told
 
 
@@ -104,7 +104,7 @@ def mixed(data: Data, answers: Answers) -> Judged:
     first = set(range(len(data["LSTM"]["speed"])))
     found = [any(g & first and g - first for g in groups) for groups in grouped(data)]
     words = ["yes" if each else "no" for each in found]
-    return lambda answer: answer in words, f"the families of your robots say {words[1]}."
+    return lambda answer: answer in words, "look again which robots each of your families has."
 
 
 def share_lost(data: Data, answers: Answers) -> Judged:
@@ -114,7 +114,7 @@ def share_lost(data: Data, answers: Answers) -> Judged:
         "more" if low > SHARE + slack else "less" if high < SHARE - slack else CANNOT_TELL
         for slack in (-0.015, 0.0, 0.015)
     }
-    told = f"the mean share that your LSTM robots lose lies between {low:.3f} and {high:.3f}."
+    told = "compare 0.8 with the interval of the mean share that your LSTM robots lose."
     return lambda answer: answer in ends, told
 
 

@@ -72,17 +72,14 @@ def when(data: Data, answers: Answers) -> Judged:
         STEPS[0] if low > slack else STEPS[1] if high < -slack else CANNOT_TELL
         for slack in (-0.04, 0.0, 0.04)
     }
-    told = (
-        f"the first growth minus the second lies between {low:.2f} and {high:.2f}: your runs "
-        f"support '{sorted(ends)[0]}'."
-    )
+    told = "look whether the interval of the first growth minus the second contains 0."
     return lambda answer: answer in ends, told
 
 
 def survivors(data: Data, answers: Answers) -> Judged:
     """Judge how many late pendulums mostly end upright under the greater gravity."""
     found = int((data["late"]["heavy_upright"] > 0.5).sum())
-    return lambda answer: answer == found, f"of your late pendulums these are {found}."
+    return lambda answer: answer == found, "count the late runs with heavy_upright > 0.5."
 
 
 def median(name: str) -> Any:

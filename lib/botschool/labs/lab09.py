@@ -102,10 +102,7 @@ def against_prediction(data: Data, answers: Answers) -> Judged:
     low, high = tipping_interval(data)
     predicted = answers.get("tipping", NEVER)
     right = "below" if high < predicted else "above" if low > predicted else CANNOT_TELL
-    told = (
-        f"resampling your runs gives a tipping point from {low:g} to {high:g}, and you predicted "
-        f"{predicted:g}: your runs support '{right}'."
-    )
+    told = "compare your prediction with the interval of your resampled tipping points."
     return lambda answer: answer == right, told
 
 
@@ -118,17 +115,17 @@ def shown(data: Data) -> float:
 def observed(data: Data, answers: Answers) -> Judged:
     """Judge the tipping point that the runs show."""
     found = shown(data)
-    return lambda answer: abs(answer - found) < 0.005, f"the table of your runs gives {found:g}."
+    return (
+        lambda answer: abs(answer - found) < 0.005,
+        "read it off your table: its least bonus with more than five statues.",
+    )
 
 
 def enough(data: Data, answers: Answers) -> Judged:
     """Judge whether ten runs fix the tipping point to +- NEARLY."""
     low, high = tipping_interval(data)
     right = "yes" if high - low <= 2 * NEARLY + 1e-9 else "no"
-    return lambda answer: answer == right, (
-        f"resampling your runs gives a tipping point from {low:g} to {high:g}: the answer is "
-        f"{right}."
-    )
+    return lambda answer: answer == right, "look how far apart the ends of your interval are."
 
 
 def median(values: Any) -> tuple[float, ...]:

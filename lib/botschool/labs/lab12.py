@@ -57,7 +57,7 @@ def condition(name: str, learner: list[Any] | None) -> Condition:
 def solved(data: Data, answers: Answers) -> Judged:
     """Judge how many of all trainings solve the problem."""
     found = sum(float(values["solved"].sum()) for values in data.values())
-    return lambda answer: abs(answer - found) < 0.01, f"{found:g} of your trainings solve it."
+    return lambda answer: abs(answer - found) < 0.01, "add up the column of the solved."
 
 
 def median(values: Any) -> tuple[float, ...]:

@@ -69,10 +69,7 @@ def above_zero(measure: str) -> Callable[[Data, Answers], Judged]:
     def judge(data: Data, answers: Answers) -> Judged:
         low, high = interval(data["random"][measure], np.mean)
         right = "yes" if low > 0 else "no, fewer" if high < 0 else CANNOT_TELL
-        told = (
-            f"the mean of {measure} lies between {low:.3g} and {high:.3g}: your runs support "
-            f"'{right}'."
-        )
+        told = f"look where the interval of the mean of {measure} lies, below 0, above or around."
         return lambda answer: answer == right, told
 
     return judge
@@ -81,7 +78,7 @@ def above_zero(measure: str) -> Callable[[Data, Answers], Judged]:
 def first_part(data: Data, answers: Answers) -> Judged:
     """Judge how much of the historical progress is due to generation 0."""
     found = float((data["random"]["historical"] - data["random"]["later"]).mean())
-    told = f"the mean of historical - later over your runs of random is {found:.3g}."
+    told = "compute the mean of historical - later over your ten runs of random again."
     return lambda answer: abs(answer - found) <= 0.006 + 0.02 * abs(found), told
 
 

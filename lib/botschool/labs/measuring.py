@@ -187,7 +187,7 @@ def permutation_test(one: ArrayLike, other: ArrayLike, seed: int = 1) -> float:
 
 def paired_test(one: ArrayLike, other: ArrayLike, seed: int = 1) -> float:
     """Return the p of a mean difference of pairs: how often random signs give at least as much."""
-    differences = np.asarray(one, dtype=float) - np.asarray(other, dtype=float)
+    differences = _paired(one, other)
     rng = np.random.default_rng(seed)
     signs = rng.choice([-1.0, 1.0], size=(RESAMPLES, len(differences)))
     apart = np.abs((signs * differences).mean(axis=1))
@@ -236,6 +236,34 @@ def measure_all(measure: Callable[[dict], dict]) -> dict[str, dict[str, np.ndarr
     """Measure all runs of the folder in which `measure` is: condition -> measure -> array."""
     found = {}
     for name, runs in load_runs(Path(getfile(measure)).parent).items():
-        rows = [measure(run) for run in runs]
+        rows = [_row(measure(run), name) for run in runs]
         found[name] = {key: np.array([row[key] for row in rows]) for key in rows[0]}
     return found
+
+
+def _row(answer: Any, name: str) -> dict[str, float]:
+    """Return what `measure` gave, one number for each name. Raises BotschoolError."""
+    from botschool.errors import BotschoolError
+
+    if not isinstance(answer, dict) or not answer:
+        raise BotschoolError(f"measure(run) returns a dict of numbers, not {answer!r:.60}.")
+    for key, value in answer.items():
+        size = np.size(value)
+        if size != 1 or np.ndim(value):
+            raise BotschoolError(
+                f"measure(run) of {name} returns {size} numbers in a list for '{key}': return one, "
+                "such as their mean."
+            )
+    return answer
+
+
+def _paired(one: ArrayLike, other: ArrayLike) -> np.ndarray:
+    """Return the differences of pairs. Raises BotschoolError if the lengths differ."""
+    from botschool.errors import BotschoolError
+
+    if np.shape(one) != np.shape(other):
+        raise BotschoolError(
+            f"A paired test needs two lists of the same runs, not {np.size(one)} and "
+            f"{np.size(other)} values."
+        )
+    return np.asarray(one, dtype=float) - np.asarray(other, dtype=float)

@@ -1,18 +1,20 @@
-"""Write a laboratory's report: one page with the sheet, the figure, replays and the points."""
+"""Write a laboratory's report: prediction and findings, the figure, numbers, replays, words."""
 
 from __future__ import annotations
 
 import re
 from base64 import b64encode
+from contextlib import suppress
 from html import escape
 from pathlib import Path
+from typing import Any
 
 from botschool import problems
 from botschool.labs.check import Checked
-from botschool.labs.declare import WORDS, Lab
+from botschool.labs.declare import WORDS, Field, Lab
 from botschool.labs.folder import Place
 from botschool.labs.saved import SavedRun
-from botschool.labs.sheet import uncommented
+from botschool.labs.sheet import Sheet, Unreadable
 from botschool.output import save_bytes
 
 _STYLE = """
@@ -22,27 +24,29 @@ h1 { line-height: 1.2 } h2 { margin-top: 2.2rem; border-bottom: 1px solid #8886 
 table { border-collapse: collapse; display: block; overflow-x: auto }
 td, th { border-bottom: 1px solid #8884; padding: .3rem .8rem; text-align: left }
 blockquote { border-left: 4px solid #0072b2; margin: 1rem 0; padding: .1rem 1rem }
-pre { background: #8882; padding: .6rem 1rem; overflow-x: auto }
 img { max-width: 100%; background: white } iframe { width: 100%; height: 34rem; border: 0 }
-b.answer, b.chosen { color: #0072b2 } .open { opacity: .55 } li { margin: .3rem 0 }
+b.answer { color: #0072b2 } li { margin: .3rem 0 }
 """
 
 
 def write_report(place: Place, checked: Checked, folder: Path) -> Path:
     """Write report.html into the laboratory's folder; folder: for temporary files."""
-    lab = place.lab
-    blocks = place.sheet().text.split("\n\n")
-    text = "\n\n".join(b for b in blocks if not b.startswith("Write after `answer:`"))
-    title, *sections = re.split(r"^## +", text, flags=re.MULTILINE)
-    body = [_markdown(title)]
-    for section in sections:
-        head, _, text = section.partition("\n")
-        body.append(f"<h2>{escape(head.strip())}</h2>{_markdown(text)}")
-        if head.strip() == "Figure" and checked.picture:
-            data = b64encode(checked.picture).decode()
-            body.append(f'<img alt="The figure of the runs" src="data:image/png;base64,{data}">')
-        if head.strip() == "Runs":
-            body += [_replay(lab, checked, name, folder) for name in lab.shown]
+    lab, sheet = place.lab, place.sheet()
+    answers = checked.answers
+    name = escape(sheet.text_of("name"))
+    body = [
+        f"<h1>{escape(lab.title)}</h1><p>Laboratory {lab.number}, {name}</p>",
+        _told("You predicted", lab.predictions, answers),
+        _told("You found", lab.fields, answers),
+    ]
+    if checked.picture:
+        data = b64encode(checked.picture).decode()
+        body.append(f'<img alt="The figure of the runs" src="data:image/png;base64,{data}">')
+    body += ["<h2>The numbers</h2>", _table(sheet, lab)]
+    if shown := "".join(_replay(lab, checked, name, folder) for name in lab.shown):
+        body += ["<h2>The robots</h2>", shown]
+    if checked.words:
+        body += ["<h2>In your words</h2>", f"<blockquote>{_inline(checked.words)}</blockquote>"]
     body.append(f"<h2>Points</h2>{_points(checked)}")
     page = (
         f'<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" '
@@ -52,6 +56,33 @@ def write_report(place: Place, checked: Checked, folder: Path) -> Path:
     path = place.folder / "report.html"
     save_bytes(path, page.encode())
     return path
+
+
+def _told(title: str, fields: tuple[Field, ...], answers: dict[str, Any]) -> str:
+    """Return answers of the sheet as a list, each after what it answers; texts are quoted."""
+    there = [field for field in fields if field.id in answers]
+    rows = [
+        f'<li>{_inline(f.what)}: <b class="answer">{_inline(_shown(answers[f.id]))}</b></li>'
+        for f in there
+        if f.kind != "text"
+    ]
+    texts = [f"<blockquote>{_inline(answers[f.id])}</blockquote>" for f in there if f.words]
+    nothing = "" if there else "<p>Nothing is written yet.</p>"
+    return f"<h2>{title}</h2><ul>{''.join(rows)}</ul>{''.join(texts)}{nothing}"
+
+
+def _shown(answer: Any) -> str:
+    return f"{answer:g}" if isinstance(answer, float) else str(answer)
+
+
+def _table(sheet: Sheet, lab: Lab) -> str:
+    """Return the sheet's table, with intervals, as the student has filled it in."""
+    rows = [["", *(column.title for column in lab.columns)]]
+    for condition in lab.conditions:
+        with suppress(Unreadable):
+            rows.append([condition.name, *sheet.row(condition.name)])
+    cells = ["".join(f"<td>{_inline(cell)}</td>" for cell in row) for row in rows]
+    return f"<table>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>"
 
 
 def _points(checked: Checked) -> str:
@@ -90,50 +121,9 @@ def _replay(lab: Lab, checked: Checked, name: str, folder: Path) -> str:
     return f'<p>The best of {escape(name)}:</p><iframe title="{name}" srcdoc="{inside}"></iframe>'
 
 
-def _markdown(text: str) -> str:
-    """Return the Markdown of a sheet as HTML."""
-    blocks = re.split(r"\n\s*\n", text.strip("\n"))
-    return "".join(_block(block) for block in blocks if block.strip())
-
-
-def _block(block: str) -> str:
-    block = uncommented(block).strip("\n")
-    lines = block.splitlines()
-    if not block.strip():
-        return ""
-    if lines[0].startswith("# "):
-        return f"<h1>{_inline(lines[0][2:])}</h1>" + _block("\n".join(lines[1:]))
-    if all(line.startswith("    ") for line in lines):
-        return f"<pre>{escape(block)}</pre>"
-    if lines[0].startswith("|"):
-        rows = [line.strip().strip("|").split("|") for line in lines if not re.match(r"\|-", line)]
-        cells = ["".join(f"<td>{_inline(cell.strip())}</td>" for cell in row) for row in rows]
-        return f"<table>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>"
-    if lines[0].startswith("- "):
-        items = re.split(r"^- ", block, flags=re.MULTILINE)[1:]
-        return f"<ul>{''.join(f'<li>{_inline(item)}</li>' for item in items)}</ul>"
-    quoted = [line.lstrip()[1:] for line in lines if line.lstrip().startswith(">")]
-    plain = [line for line in lines if not line.lstrip().startswith(">")]
-    shown = f"<p>{_inline(chr(10).join(plain))}</p>" if "".join(plain).strip() else ""
-    return shown + (f"<blockquote>{_inline(chr(10).join(quoted))}</blockquote>" if quoted else "")
-
-
 def _inline(text: str) -> str:
-    """Return a line with its code unchanged, and with emphasis, answers and boxes elsewhere."""
+    """Return a line of Markdown as HTML: its code unchanged, emphasis elsewhere."""
     pieces = re.split(r"`([^`]+)`", text)
     pieces[1::2] = [f"<code>{escape(code)}</code>" for code in pieces[1::2]]
-    pieces[::2] = [_answers(escape(piece)) for piece in pieces[::2]]
+    pieces[::2] = [re.sub(r"\*([^*\n]+)\*", r"<em>\1</em>", escape(piece)) for piece in pieces[::2]]
     return "".join(pieces)
-
-
-def _answers(text: str) -> str:
-    text = re.sub(r"\*([^*\n]+)\*", r"<em>\1</em>", text)
-    text = re.sub(r"answer:[ \t]{0,9}(.*)", r'<b class="answer">\1</b>', text)
-    return re.sub(r"\[\s{0,9}([xX]?)\s{0,9}\]\s{0,9}([^\[\n<]+)", _box, text)
-
-
-def _box(found: re.Match) -> str:
-    mark, label = found[1], found[2].strip()
-    if mark:
-        return f'<b class="chosen">&#9745; {label}</b> '
-    return f'<span class="open">&#9744; {label}</span> '

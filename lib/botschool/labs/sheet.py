@@ -39,7 +39,10 @@ class Sheet:
         try:
             content = read_inside(path.parent, path.name, MAX_BYTES)
         except FileNotFoundError:
-            raise BotschoolError(f"There is no {path}: botschool lab N start makes it.") from None
+            lab = path.resolve().parent.name.removeprefix("lab").lstrip("0")
+            raise BotschoolError(
+                f"There is no {path}: botschool lab {lab} start makes it."
+            ) from None
         except OSError as error:
             raise BotschoolError(
                 f"{path} cannot be read ({error.strerror or 'no regular file'}): it must be a "
