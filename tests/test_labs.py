@@ -291,12 +291,13 @@ def test_a_sheet_says_all_that_decides_its_runs(tmp_path):
         lab = load_lab(number)
         sheet = skeletons(lab)["sheet.md"]
         for condition in lab.conditions:
-            for section in condition.experiment.values():
-                for name, value in section.items() if isinstance(section, dict) else ():
-                    row = re.search(rf"^\| `{name}` \| (.*) \|$", sheet, re.MULTILINE)
+            for section, named in condition.experiment.items():
+                for name, value in named.items() if isinstance(named, dict) else ():
                     if name == "maxmsteps" and condition.generations:
-                        row = re.search(r"^\| `generations` \| (.*) \|$", sheet, re.MULTILINE)
-                        value = condition.generations
+                        name, value = "generations", condition.generations
+                    row = re.search(
+                        rf"^\| \[{section.upper()}\] \| `{name}` \| (.*) \|$", sheet, re.MULTILINE
+                    )
                     assert row and str(value).strip("[]") in row[1], (number, name)
         if any("post-evaluated" in line for line in sheet.split("## Measurements")[1].split("\n")):
             assert "*post-evaluated*" in sheet

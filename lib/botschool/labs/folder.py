@@ -7,7 +7,6 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from textwrap import indent
-from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.labs.declare import STRATEGY, Lab, load_lab
@@ -73,23 +72,25 @@ def settings(lab: Lab) -> str:
     """Return all that decides a run of the laboratory, as a table: setting, value in the runs."""
     values: dict[str, dict[str, list[str]]] = {}
     for condition in lab.conditions:
-        told: dict[str, Any] = {}
-        for name, section in condition.experiment.items():
-            told |= section if isinstance(section, dict) else {name: section}
+        told = {
+            f"[{section.upper()}] | `{name}`": value
+            for section, named in condition.experiment.items()
+            for name, value in (named if isinstance(named, dict) else {section: named}).items()
+            if not (condition.generations and name == SAME)
+        }
         if condition.generations:
-            told = {k: v for k, v in told.items() if k != SAME}
-            told["generations"] = condition.generations
+            told["[ALGO] | `generations`"] = condition.generations
         for name, value in told.items():
-            shown = ", ".join(map(str, value)) if isinstance(value, list) else str(value)
+            shown = ", ".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)
             values.setdefault(name, {}).setdefault(shown, []).append(condition.name)
-    rows = [f"| `{name}` | {_value(found, lab)} |" for name, found in values.items()]
+    rows = [f"| {name} | {_value(found, lab)} |" for name, found in values.items()]
     meets = any(c.experiment["exp"]["algo"] == "coevo2" for c in lab.conditions)
     trains = any(c.kind == "training" for c in lab.conditions)
     lists = "`botschool es` and `botschool rl --explain` list" if trains else "`botschool es` lists"
     return (
         f"{'' if meets else POST_EVALUATED}These settings decide a run. All others have their "
         f"defaults:\n{lists} and explain{'' if trains else 's'} them.\n\n"
-        "| setting | value |\n|---|---|\n" + "\n".join(rows)
+        "| section | setting | value |\n|---|---|---|\n" + "\n".join(rows)
     )
 
 
