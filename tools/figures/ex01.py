@@ -66,8 +66,8 @@ def episodes() -> None:
                           (end + 17, -14.6), color=colour)  # fmt: skip
         else:
             axes.plot(end, angles[-1], "o", color=colour, ms=9)
-            axes.annotate("truncated: the time limit\nof 500 steps is reached", (end, angles[-1]), (385, 3.2),
-                          color=colour)  # fmt: skip
+            axes.annotate("truncated: the time limit\nof 500 steps is reached", (end, angles[-1]),
+                          (385, 3.2), color=colour)  # fmt: skip
     for limit in (-12, 12):
         axes.axhline(limit, color=GREY, ls="--", lw=1)
     axes.axhspan(-12, 12, color=PALE, alpha=0.5, lw=0)
