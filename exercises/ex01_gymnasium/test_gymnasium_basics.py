@@ -1,4 +1,4 @@
-"""Grader of exercise 1; run it with `make test-ex1`.
+"""Grader of exercise 1; run it with `botschool grade 1`.
 
 Stochastic check (task 1.5): a mean of at least 195 steps over 20 unseen episodes of at most 200.
 The solution reaches 200.0 in each of 20 such sets of 20 episodes, so its margin is 5 steps. A rule

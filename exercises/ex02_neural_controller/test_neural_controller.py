@@ -1,4 +1,4 @@
-"""Grader of exercise 2; run it with `make test-ex2`.
+"""Grader of exercise 2; run it with `botschool grade 2`.
 
 All tasks compare with our solution; of networks that a submission draws (2.1, 2.8), a view. They
 may have single or double precision, actions too: in 300 episodes of Pendulum this changed no return

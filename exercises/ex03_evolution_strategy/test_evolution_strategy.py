@@ -1,4 +1,4 @@
-"""Grader of exercise 3; run it with `make test-ex3`.
+"""Grader of exercise 3; run it with `botschool grade 3`.
 
 Tasks 3.1 and 3.3 to 3.5 draw random numbers as they like, so a view of each answer is compared with
 a view of ours. Task 3.7 trains robots whose parameters count with gains drawn in secret.

@@ -1,4 +1,4 @@
-"""Grader of exercise 4; run it with `make test-ex4`.
+"""Grader of exercise 4; run it with `botschool grade 4`.
 
 All tasks compare with our solution, and nothing is left to chance: runs are the same to the last
 bit whenever experiment and seed are. Experiments are short, and the saved robots are made up.

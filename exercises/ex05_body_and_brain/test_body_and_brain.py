@@ -1,4 +1,4 @@
-"""Grader of exercise 5; run it with `make test-ex5`.
+"""Grader of exercise 5; run it with `botschool grade 5`.
 
 All tasks compare with our solution, and nothing is left to chance: runs and episodes are the same
 to the last bit whenever experiment, genotype and seed are. Experiments are short, in the course's

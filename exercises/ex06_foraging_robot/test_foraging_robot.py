@@ -1,4 +1,4 @@
-"""Grader of exercise 6; run it with `make test-ex6`.
+"""Grader of exercise 6; run it with `botschool grade 6`.
 
 All tasks compare with our solution. Nothing is a matter of luck: the arena and its noise follow
 from a seed. Brains are variations of the pre-evolved robots of data/genotypes, robots that do

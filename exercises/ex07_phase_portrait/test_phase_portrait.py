@@ -1,4 +1,4 @@
-"""Grader of exercise 7; run it with `make test-ex7`.
+"""Grader of exercise 7; run it with `botschool grade 7`.
 
 Tasks 7.1 to 7.5 compare with our solution. Task 7.6 evolves a robot whose parameters count with
 gains drawn in secret. Task 7.7 finds out from the pixels where arrows are drawn.

@@ -1,4 +1,4 @@
-"""Grader of exercise 8; run it with `make test-ex8`.
+"""Grader of exercise 8; run it with `botschool grade 8`.
 
 Tasks 8.1 to 8.7 compare with our solution. Task 8.8 is evolved with secret signs of the parameters,
 so that none can be written down; what `train` returns must be where a call of `evolve` has led, and

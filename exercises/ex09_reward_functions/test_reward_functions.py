@@ -1,4 +1,4 @@
-"""Grader of exercise 9; run it with `make test-ex9`.
+"""Grader of exercise 9; run it with `botschool grade 9`.
 
 All tasks compare with our solution, on random trajectories, in which everything happens, and on
 real ones. Where PyBullet is not installed, recorded episodes stand in. Nothing is left to chance:

@@ -1,4 +1,4 @@
-"""Grader of exercise 10; run it with `make test-ex10`.
+"""Grader of exercise 10; run it with `botschool grade 10`.
 
 Tasks 10.1 to 10.8 compare with our solution. Each method of the environment is called in a world
 that the grader has set up, beside another simulation, so that a forgotten physicsClientId shows.

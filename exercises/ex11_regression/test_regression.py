@@ -1,4 +1,4 @@
-"""Grader of exercise 11; run it with `make test-ex11`.
+"""Grader of exercise 11; run it with `botschool grade 11`.
 
 What tasks 11.5 and 11.8 train must have been trained: whenever a gradient is computed, the grader
 notes the parameters, and many small steps must lead from a start to those that are returned. In one

@@ -1,4 +1,4 @@
-"""Grader of exercise 12; run it with `make test-ex12`.
+"""Grader of exercise 12; run it with `botschool grade 12`.
 
 Stochastic checks (task 12.8, with changed signs; one of three seeds, without chance,
 the mean over 50 unseen episodes): CartPole-v1 and botschool/PushedCartPole-v0 need at least 180 of

@@ -1,4 +1,4 @@
-"""Grader of exercise 13; run it with `make test-ex13`.
+"""Grader of exercise 13; run it with `botschool grade 13`.
 
 All tasks compare with our solution; tests/test_inside_ppo.py proves that it computes what
 Stable-Baselines3's own code computes.

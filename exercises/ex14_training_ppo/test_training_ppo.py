@@ -1,4 +1,4 @@
-"""Grader of exercise 14; run it with `make test-ex14`.
+"""Grader of exercise 14; run it with `botschool grade 14`.
 
 All tasks compare with our solution. Nothing is left to chance: trainings depend on their settings
 and seed alone, and logs are drawn from the grading seed.

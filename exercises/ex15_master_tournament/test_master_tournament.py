@@ -1,4 +1,4 @@
-"""Grader of exercise 15; run it with `make test-ex15`.
+"""Grader of exercise 15; run it with `botschool grade 15`.
 
 All tasks compare with our solution. The arena knows no chance. Robots are made by hand, so that
 some predators catch some prey soon, some late, and some never; no evolved run is needed. Tables and

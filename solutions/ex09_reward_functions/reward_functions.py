@@ -80,8 +80,7 @@ def alive_bonus(
 def electricity(robot: str, actions: np.ndarray, speeds: np.ndarray) -> np.ndarray:
     """What the motors cost in each step, a negative number or 0; shape (T,).
 
-    -2 times the mean of |action * speed| over the joints, minus 0.1 times the mean squared
-    action. A Humanoid pays 4.25 times as much. actions and speeds have the shape (T, joints).
+    By the formula of README.md. actions and speeds have the shape (T, joints).
     """
     ### BEGIN SOLUTION task 9.2: charge for electricity
     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
