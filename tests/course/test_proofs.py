@@ -97,6 +97,9 @@ def test_text_names_tasks_and_times(number):
         assert any(re.search(r"\d+ *min", line) for line in lines), f"no time for task {task.id}"
     assert f"`botschool grade {number}`" in text
     assert not re.search(r"\bmake (test|notebook)", text), "students type botschool, not make"
+    assert "\n## To go on\n" in text and "[section 13." in text.partition("\n## To go on\n")[2]
+    for alt in re.findall(r"!\[([^\]]*)\]", text):
+        assert alt.count("(") == alt.count(")") and len(alt.split()) > 3, f"alt text: {alt}"
     assert f"botschool show {number}`" in text
     assert (building.ROOT / "solutions" / building.source(number).folder / "README.md").is_file()
 
