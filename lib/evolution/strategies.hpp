@@ -58,12 +58,18 @@ inline void mirror(const Values& centre, const Values& samples, double deviation
   }
 }
 
-/// The direction in which fitness rises, by the ranks of the candidates that `mirror` wrote.
-inline Values gradient(const double* fitness, std::size_t count, const Values& samples) {
+/// The utility of each candidate, by its rank: from -0.5, the worst, to 0.5.
+inline Values utilities_of(const double* fitness, std::size_t count) {
   const auto order = ranking(fitness, count, true);
-  Values utilities(count);  // from -0.5, the worst, to 0.5
+  Values utilities(count);
   for (std::size_t i = 0; i < count; ++i)
     utilities[order[i]] = i + 1 == count ? 0.5 : i * (1.0 / (count - 1)) + -0.5;
+  return utilities;
+}
+
+/// The direction in which fitness rises, by the ranks of the candidates that `mirror` wrote.
+inline Values gradient(const double* fitness, std::size_t count, const Values& samples) {
+  const Values utilities = utilities_of(fitness, count);
   const std::size_t n = 2 * samples.size() / count;
   Values rising(n);
   for (std::size_t s = 0; s < count / 2; ++s) {
@@ -89,6 +95,11 @@ inline void climb(Centre& centre, const Values& rising, int wdecay, double step)
     v = kBeta2 * v + (1 - kBeta2) * (descent * descent);
     x = x - step * m / (std::sqrt(v) + kEpsilon);
   }
+}
+
+/// The size of Adam's step number t, from 1 on.
+inline double adam_step(double stepsize, unsigned t) {
+  return stepsize * std::sqrt(1 - power(kBeta2, t)) / (1 - power(kBeta1, t));
 }
 
 /// A population: ask for candidates, measure them, tell their fitness, and repeat.
@@ -124,8 +135,8 @@ class OpenAIES final : public Strategy {
 
   void tell(const Values& fitness) override {
     const unsigned t = static_cast<unsigned>(++generation_);
-    const double step = given_.stepsize * std::sqrt(1 - power(kBeta2, t)) / (1 - power(kBeta1, t));
-    climb(centre_, gradient(fitness.data(), fitness.size(), samples_), given_.wdecay, step);
+    climb(centre_, gradient(fitness.data(), fitness.size(), samples_), given_.wdecay,
+          adam_step(given_.stepsize, t));
   }
 
   double average_parameter() const override {

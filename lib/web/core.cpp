@@ -10,11 +10,11 @@
 #include "arena/engine/kernel.hpp"
 #include "arena/engine/stepper.hpp"
 #include "evolution/coevolution.hpp"
+#include "export.hpp"
 #include "generated/problem_list.hpp"
 #include "learning.hpp"
 
 #ifdef __wasm__
-#define EXPORT(name) extern "C" __attribute__((export_name(#name)))
 // layout.cpp can throw for a Spec that Python has refused before; a page then stops.
 extern "C" void* __cxa_allocate_exception(std::size_t size) { return std::malloc(size); }
 extern "C" void __cxa_throw(void*, void*, void (*)(void*)) { std::abort(); }
@@ -25,8 +25,6 @@ extern "C" int vsnprintf(char*, std::size_t, const char*, std::va_list) { return
 namespace std::__1 {
 [[noreturn]] void __libcpp_verbose_abort(const char*, ...) noexcept { std::abort(); }
 }  // namespace std::__1
-#else
-#define EXPORT(name) extern "C"
 #endif
 
 namespace botschool {
@@ -64,7 +62,8 @@ struct Bench {
       : stepper(std::move(made)),
         blind(task.info.observations * task.info.robots),
         observation(blind.size()),
-        state(task.info.states) {}
+        state(task.info.states),
+        taken(task.info.discrete ? 1 : task.info.outputs * task.info.robots) {}
   virtual ~Bench() = default;
   virtual void start(std::uint64_t, std::uint32_t) {}
   /// Turns `observation` into `taken`, and says what each neuron does.
@@ -78,10 +77,10 @@ struct Bench {
       if (blind[i]) observation[i] = 0.0;
   }
 
-  /// Returns whether the episode has ended.
-  bool step() {
+  /// Returns whether the episode has ended; by hand: with the action that `taken` holds.
+  bool step(bool by_hand) {
     look();
-    think();
+    if (!by_hand) think();
     const bool ended = stepper->step(taken.data(), reward);
     stepper->get_state(state.data());
     return ended;
@@ -375,7 +374,11 @@ EXPORT(bench_start) void bench_start(Bench* bench, double seed, int episode) {
   bench->start(key, static_cast<std::uint32_t>(episode));
   bench->look();
 }
-EXPORT(bench_step) int bench_step(Bench* bench) { return bench->step(); }
+EXPORT(bench_step) int bench_step(Bench* bench) { return bench->step(false); }
+/// Steps with the action in values 4, which the page has written, in place of the robot's.
+EXPORT(bench_hand) int bench_hand(Bench* bench) { return bench->step(true); }
+/// Thinks about the observation in values 3 without a step: values 4 and 5.
+EXPORT(bench_think) void bench_think(Bench* bench) { bench->think(); }
 EXPORT(bench_reward) double bench_reward(const Bench* bench) { return bench->reward; }
 /// Freezes what the network remembers as it is now, or lets it go on.
 EXPORT(bench_freeze) void bench_freeze(Bench* bench, int frozen) { bench->freeze(frozen != 0); }

@@ -57,7 +57,10 @@ def write_page(
         saved = np.asarray(saved)[[0, len(saved) // 2]].ravel()
     name = name or ("the robot that was given" if given else "")
     genotype, normalisation = policy.split(np.asarray(saved, dtype=np.float64))
-    data = _data(experiment, problem, policy)
+    data = describe(experiment, problem, policy) | {
+        "fields": _fields(experiment, problem),
+        "ini": {name.upper(): values for name, values in _written(experiment).items()},
+    }
     data["who"] = name or "a random robot, with which evolution starts"
     if name:
         data |= encoded(policy.join(genotype, normalisation))
@@ -79,7 +82,12 @@ def part_of(problem: str) -> str:
 
 def core(problem: str) -> bytes:
     """Return the compiled core of a problem. Raises BotschoolError if it was not built."""
-    place = files("botschool.page") / f"{part_of(problem)}.wasm"
+    return core_file(part_of(problem))
+
+
+def core_file(part: str) -> bytes:
+    """Return the compiled core of a part. Raises BotschoolError if it was not built."""
+    place = files("botschool.page") / f"{part}.wasm"
     if not place.is_file():
         raise BotschoolError(
             "The core for pages is not built here: type `make web` in the checkout (a minute or "
@@ -109,7 +117,8 @@ def _checked(experiment: Experiment) -> NativeProblem:
     return problem
 
 
-def _data(experiment: Experiment, problem: NativeProblem, policy: Any) -> dict:
+def describe(experiment: Experiment, problem: NativeProblem, policy: Any) -> dict:
+    """Return what a page knows of an experiment, without what a user can change."""
     scene, spec, p, drawn = problem_scene(problem), policy.spec, experiment.policy, picture(problem)
     inputs, outputs = policy.neurons
     neurons = len(policy.network.activations)
@@ -146,8 +155,6 @@ def _data(experiment: Experiment, problem: NativeProblem, policy: Any) -> dict:
             "limit": limit,
             "heterogeneous": p.heterogeneous,
         },
-        "fields": _fields(experiment, problem),
-        "ini": {name.upper(): values for name, values in _written(experiment).items()},
     }
 
 
@@ -172,11 +179,11 @@ def encoded(saved: np.ndarray) -> dict[str, str]:
     """Return a robot in base 64, in single precision if that is exact."""
     single = saved.astype("<f4")
     if (single == saved).all():
-        return {"robot": _packed(single.tobytes())}
-    return {"exact": _packed(saved.astype("<f8").tobytes())}
+        return {"robot": packed(single.tobytes())}
+    return {"exact": packed(saved.astype("<f8").tobytes())}
 
 
-def _packed(content: bytes) -> str:
+def packed(content: bytes) -> str:
     """Return the packed content that `unzipped` in core.js reads."""
     return b64encode(gzip.compress(content, 9, mtime=0)).decode()
 
@@ -272,7 +279,7 @@ def _needs(limits: Any, whole: bool) -> str:
     return f"{kind} {low}, at most {limits['high']:g}"
 
 
-def _shorter(script: str) -> str:
+def shorter(script: str) -> str:
     """Return a script without indentation and comment lines."""
     lines = (line.strip() for line in script.splitlines())
     return "\n".join(line for line in lines if line and not line.startswith("//")) + "\n"
@@ -281,21 +288,21 @@ def _shorter(script: str) -> str:
 def assemble(data: dict, seed: int) -> bytes:
     """Return the page of these data."""
     folder = files("botschool.page")
-    read = {name: _shorter((folder / name).read_text("utf-8")) for name in (*SCRIPTS, "worker.js")}
-    scripts = "\n".join([*(read[name] for name in SCRIPTS), _shorter(drawing(data["scene"]))])
+    read = {name: shorter((folder / name).read_text("utf-8")) for name in (*SCRIPTS, "worker.js")}
+    scripts = "\n".join([*(read[name] for name in SCRIPTS), shorter(drawing(data["scene"]))])
     # a picture can have hundreds of shapes, as a ruler has marks
     shapes = json.dumps(data["scene"]["shapes"], separators=(",", ":")).encode()
-    data = data | {"scene": data["scene"] | {"shapes": _packed(shapes)}}
+    data = data | {"scene": data["scene"] | {"shapes": packed(shapes)}}
     # "<" never appears in the JSON, so nothing in it can end its element.
     text = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
     page = (folder / "page.html").read_text(encoding="utf-8")
     page = page.replace('step="1" value="1"', f'step="1" value="{seed}"')
     for place, content in (
         ("/*TITLE*/", data["title"]),
-        ("/*SHARED*/", _shorter((folder / "core.js").read_text("utf-8"))),
+        ("/*SHARED*/", shorter((folder / "core.js").read_text("utf-8"))),
         ("/*WORKER*/", read["worker.js"]),
         ("/*SCRIPTS*/", scripts),
-        ("/*CORE*/", _packed(core(data["experiment"]["problem"]))),
+        ("/*CORE*/", packed(core(data["experiment"]["problem"]))),
         ("/*DATA*/", text),
     ):
         page = page.replace(place, content)

@@ -1,0 +1,85 @@
+"""What tests of the exercises' living pages share: open a page, use a figure as a hand does."""
+
+from pathlib import Path
+
+import pytest
+
+from botschool.page.exercise import exercise_page
+from botschool.page.markdown import FIGURE
+
+ROOT = Path(__file__).parents[1]
+BUILT = (ROOT / "lib/botschool/page/spatial.wasm").exists()
+built = pytest.mark.skipif(not BUILT, reason="the core for pages is not built: make web")
+FOLDERS = {int(path.name[2:4]): path for path in sorted(ROOT.glob("exercises/ex[0-9]*"))}
+NAMED = {n: FIGURE.findall((path / "README.md").read_text()) for n, path in FOLDERS.items()}
+"""The figures that each exercise's text names."""
+WITH_PAGES = [n for n, names in NAMED.items() if names]
+
+
+def open_figures(browser, number, tmp_path, width=1280, dark=False):
+    """Write an exercise's page and open it, with nothing moving; return its path."""
+    path = tmp_path / f"ex{number:02d}.html"
+    path.write_text(exercise_page(FOLDERS[number]), encoding="utf-8")
+    browser.errors.clear()
+    browser.requests.clear()
+    browser.resize(width, 900, phone=width < 500, dark=dark)
+    browser.call("Page.navigate", url="about:blank")
+    browser.call("Page.navigate", url=f"file://{path}#still")
+    browser.wait("document.body?.dataset.ready")
+    return path
+
+
+def place_of(browser, name, x, y):
+    """Scroll to a figure; return the window's point at (x, y), pixels of its picture."""
+    canvas = f"figures.{name}.canvas"
+    browser.run(f"{canvas}.scrollIntoView({{block: 'center', behavior: 'instant'}})")
+    box = browser.run(f"{canvas}.getBoundingClientRect().toJSON()")
+    return box["x"] + x, box["y"] + y
+
+
+def drag(browser, name, start, end):
+    """Drag with the mouse in a figure, from and to (x, y) in pixels of its picture."""
+    for kind, (x, y), buttons in (
+        ("mousePressed", start, 1),
+        ("mouseMoved", [(a + b) / 2 for a, b in zip(start, end, strict=True)], 1),
+        ("mouseMoved", end, 1),
+        ("mouseReleased", end, 0),
+    ):
+        at = dict(zip("xy", place_of(browser, name, x, y), strict=True))
+        browser.call(
+            "Input.dispatchMouseEvent",
+            type=kind,
+            button="left",
+            buttons=buttons,
+            clickCount=1,
+            **at,
+        )
+
+
+def click(browser, name, x, y):
+    """Click in a figure's picture, at (x, y) in its pixels."""
+    drag(browser, name, (x, y), (x, y))
+
+
+def grip_of(browser, name, grip):
+    """Return where a figure's grip is in its picture."""
+    return browser.run(f"figures.{name}.grips().find(({{ name }}) => name === {grip!r}).at")
+
+
+def focus(browser, name):
+    """Put the keyboard on a figure's picture."""
+    browser.run(f"figures.{name}.canvas.focus()")
+
+
+def slide(browser, name, key, value):
+    """Move a slider as the keyboard does."""
+    browser.run(
+        f"(() => {{ const [input] = [...figures.{name}.section.querySelectorAll('input')]"
+        f".filter((one) => one.dataset.key === {key!r}); input.value = {value};"
+        f" input.dispatchEvent(new Event('input')); }})()"
+    )
+
+
+def state(browser, name):
+    """Return a figure's state."""
+    return browser.run(f"figures.{name}.state")
