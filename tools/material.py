@@ -14,7 +14,7 @@ def main(package: Path) -> None:
     from botschool.grading.copies.release import pack_measures, release
     from botschool.paths import MATERIAL
 
-    release(ROOT, package / MATERIAL, compiled=False, trusted=False)
+    release(ROOT, package / MATERIAL, compiled=False, trusted=False, pages=False)
     pack_measures(ROOT / "lib" / "botschool", package)
 
 

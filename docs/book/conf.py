@@ -45,12 +45,50 @@ LIVING = {
 """Pictures of something that moves: the page below each, and what it lets a reader do."""
 
 
+def lead_to_page(app, name, source):
+    """Make the pointer of an exercise's text to its page a link."""
+    import re
+
+    from botschool.page.exercise import POINTER
+
+    if found := re.match(r"exercises/(ex\d\d)_", name):
+        link = f'<a href="../../docs/book/live/{found[1]}.html">this text as a page</a>'
+        text = f"**See and touch it:** {link} with figures that you can drag.\n\n"
+        source[0] = POINTER.sub(text, source[0])
+
+
+def write_page(path, write, *arguments):
+    """Write a page of the book, or one that says why there is none."""
+    from botschool.errors import BotschoolError
+
+    try:
+        write(*arguments)
+    except BotschoolError as error:
+        path.write_text(f"<!DOCTYPE html><title>{path.stem}</title><p>{error}")
+
+
+def add_exercise_pages(app, exception):
+    """Write the page of each exercise beside the book's own."""
+    from functools import partial
+    from pathlib import Path
+
+    from botschool.page.exercise import has_page, write_exercise_page
+
+    def there(target, folder):
+        """Return the link of a page for one of a text: both lie three folders deep."""
+        return f"../../../exercises/{folder.name}/{target}".replace(".md", ".html")
+
+    for folder in sorted(Path(app.srcdir).glob("exercises/ex[0-9][0-9]_*")):
+        if has_page(folder) and not exception:
+            path = Path(app.outdir) / f"docs/book/live/{folder.name[:4]}.html"
+            write_page(path, write_exercise_page, folder, path, partial(there, folder=folder))
+
+
 def add_live_pages(app, exception):
     """Write the living pages beside the book's own, or say why there are none."""
     from pathlib import Path
 
     from botschool import config, page
-    from botschool.errors import BotschoolError
     from botschool.page.training import write_training_page
     from botschool.render.watch import read_genotype
 
@@ -60,16 +98,14 @@ def add_live_pages(app, exception):
     folder.mkdir(exist_ok=True)
     for name in (*LIVE, *TRAINED):
         path = folder / f"{name}.html"
-        try:
-            if name in TRAINED:
-                write_training_page(path, TRAINED[name])
-                continue
-            robot = Path(app.srcdir, "data/genotypes", LIVE[name])
-            saved = read_genotype(robot) if robot.exists() else None
-            experiment = config.load(Path(app.srcdir, f"data/experiments/{name}.ini"))
-            page.write_page(path, experiment, 1, saved, robot.stem if robot.exists() else "")
-        except BotschoolError as error:
-            path.write_text(f"<!DOCTYPE html><title>{name}</title><p>{error}")
+        if name in TRAINED:
+            write_page(path, write_training_page, path, TRAINED[name])
+            continue
+        robot = Path(app.srcdir, "data/genotypes", LIVE[name])
+        saved = read_genotype(robot) if robot.exists() else None
+        experiment = config.load(Path(app.srcdir, f"data/experiments/{name}.ini"))
+        begins = robot.stem if robot.exists() else ""
+        write_page(path, page.write_page, path, experiment, 1, saved, begins)
 
 
 def add_living_figures(app, doctree, name):
@@ -107,4 +143,6 @@ def setup(app):
     """Called by Sphinx."""
     app.connect("doctree-resolved", unlink_folders)
     app.connect("doctree-resolved", add_living_figures)
+    app.connect("source-read", lead_to_page)
     app.connect("build-finished", add_live_pages)
+    app.connect("build-finished", add_exercise_pages)

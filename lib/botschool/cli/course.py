@@ -38,11 +38,18 @@ def start(
     notebook: Annotated[
         bool, typer.Option("--notebook", help="Also open your file as a notebook.")
     ] = False,
+    opens: Annotated[
+        bool,
+        typer.Option(
+            "--open/--no-open",
+            help="Open the exercise's page with figures in your browser, if there is a display.",
+        ),
+    ] = True,
 ) -> None:
-    """Print what to read, where to write and which command comes next."""
+    """Print what to read, where to write and which command comes next; open the page."""
     from botschool.grading.commands import start_command
 
-    start_command(exercise, notebook)
+    start_command(exercise, notebook, opens)
 
 
 @app.command(epilog="Example: botschool reset 3")

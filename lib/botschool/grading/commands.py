@@ -286,10 +286,10 @@ def watch_command(what: str, submission: str | None) -> None:
         signal.signal(signal.SIGINT, before)
 
 
-def start_command(what: str, notebook: bool) -> None:
+def start_command(what: str, notebook: bool, opens: bool = True) -> None:
     """Print what an exercise is, where its files are and what to do; make a missing file.
 
-    notebook: whether to open it as a notebook, until Ctrl-C.
+    notebook: whether to open it as a notebook, until Ctrl-C. opens: whether to open its page.
     """
     from botschool.grading.copies.starting import install, open_notebook, start
 
@@ -302,6 +302,7 @@ def start_command(what: str, notebook: bool) -> None:
         console.print(f"  {does:<11}{os.path.relpath(path)}", markup=False)
     if made:
         console.print("  (it was missing; botschool has made it)")
+    _lead_to_page(number, root, console, opens and not notebook)
     console.print(f"  {'Grade':<11}botschool grade {number}, or botschool watch {number}")
     console.print(f"  {'A hint':<11}botschool hint {number}.1")
     console.print(f"  {'A notebook':<11}botschool start {number} --notebook opens your file as one")
@@ -309,6 +310,21 @@ def start_command(what: str, notebook: bool) -> None:
     exercise.require_some(exercise.tasks)
     if notebook:
         open_notebook(number, file, root)
+
+
+def _lead_to_page(number: int, root: Path, console: Console, opens: bool) -> None:
+    """Print where the living page of an exercise is, and open it."""
+    from botschool.grading.copies.starting import living_page
+    from botschool.grading.report.showing import open_page
+
+    try:
+        page = living_page(number, root)
+    except BotschoolError as error:
+        console.print(f"  {'Touch':<11}the text as a page with figures: {error}", markup=False)
+        return
+    if page:
+        note = " (opened in your browser)" if opens and open_page(page.resolve()) else ""
+        console.print(f"  {'Touch':<11}{os.path.relpath(page)}{note}", markup=False)
 
 
 def reset_command(what: str) -> None:
@@ -344,6 +360,7 @@ def show_command(what: str, submission: str | None, opens: bool) -> int:
     for name, files in tops.items():
         what = f"{files} files" if (folder / name).is_dir() else _size(folder / name)
         print(f"made: {os.path.relpath(folder / name)}  ({what})")
+    _lead_to_page(number, course_root(), Console(highlight=False, soft_wrap=True), False)
     page = make_page(number, made)
     if page:
         opened = opens and open_page(page)

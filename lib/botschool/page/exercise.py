@@ -1,7 +1,7 @@
 """Write an exercise's text as a self-contained page with figures that answer the hand.
 
 A text names its figures, `<!-- figure: NAME -->`. Their scripts are in figures/exNN.js. Where they
-need robots or numbers, figures/exNN.py says which (docs/page.md).
+need robots or numbers, figures/exNN.py says which (docs/architecture.md).
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from botschool.render.replay import drawing, palette
 SCRIPTS = ("core.js", "scenes.js", "hands.js", "figures/kit.js", "figures/robot.js")
 PAGE = "page.html"
 """The page's name in the folder of its exercise."""
-POINTER = re.compile(r"^\*\*See and touch it:\*\* (`botschool start \d+`)[^\n]*\n\n", re.MULTILINE)
+POINTER = re.compile(r"^\*\*See and touch it:\*\* .*?(`botschool start \d+`).*\n\n", re.MULTILINE)
 """The paragraph of a text that names the command which opens its page."""
 
 

@@ -21,6 +21,7 @@ from botschool.grading.declare.mistakes import case_files
 from botschool.grading.declare.trust import check_trusted, trust
 from botschool.grading.packed import PACKED, is_packed, pack, pack_answers, pack_module
 from botschool.output import written_whole
+from botschool.page.exercise import PAGE, has_page, linked, write_exercise_page
 from botschool.paths import material
 from botschool.sandbox.scratch import remove_tree
 
@@ -62,6 +63,8 @@ class Released:
     """Files that were left alone, because somebody has edited them."""
     unknown: str = ""
     """Why the user's trust in the copy could not be noted."""
+    pageless: str = ""
+    """Why the copy has no living pages."""
 
 
 def release(
@@ -72,6 +75,7 @@ def release(
     trusted: bool = True,
     compiled: bool = True,
     wheels: Sequence[Path] = (),
+    pages: bool = True,
 ) -> Released:
     """Make the copy, or update it.
 
@@ -81,6 +85,7 @@ def release(
     trusted: whether the user may run the copy's graders at its place.
     compiled: whether the copy gets botschool's source and compiles it; otherwise it uses the
     installed botschool, or installs one of the wheels.
+    pages: whether each exercise gets its living page, where the core for pages is built.
 
     The function makes a new copy as a whole or not at all. An existing copy keeps its exercises,
     files that somebody has edited, and .git. Raises BotschoolError.
@@ -103,6 +108,7 @@ def release(
             (made / WHEELS).mkdir(exist_ok=True)
             shutil.copy(wheel, made / WHEELS)
         _add_answers(root, made, answered)
+        pageless = _add_pages(made) if pages else ""
         leaks = find_leaks(root, (path for path in made.rglob("*") if path.is_file()))
         if leaks:
             path, line = leaks[0]
@@ -129,9 +135,11 @@ def release(
                     trust(target)
             except BotschoolError as error:  # the copy still works in other places
                 unknown = str(error)
-            return Released(len(files), len(files), unknown=unknown)
+            return Released(len(files), len(files), unknown=unknown, pageless=pageless)
         try:
-            return _update(made, target, manifest, files)
+            done = _update(made, target, manifest, files)
+            done.pageless = pageless
+            return done
         except OSError as error:
             raise BotschoolError(
                 f"Cannot write {error.filename} ({error.strerror}): the copy is not up to "
@@ -268,6 +276,19 @@ def _add_answers(root: Path, made: Path, numbers: set[int]) -> None:
         if folder.is_dir() and int(text.parent.name[2:4]) in numbers:
             packed = pack_answers(text.read_text(encoding="utf-8"))
             (folder / PACKED).write_text(packed, encoding="ascii", newline="\n")
+
+
+def _add_pages(made: Path) -> str:
+    """Write each exercise's living page beside its text; return why there are none, or ""."""
+    for text in sorted(made.glob("exercises/ex[0-9][0-9]_*/README.md")):
+        if not has_page(text.parent):
+            continue
+        try:
+            write_exercise_page(text.parent)
+        except BotschoolError as error:
+            return str(error)
+        _change(text, partial(linked, target=PAGE))
+    return ""
 
 
 def _change(path: Path, change) -> None:

@@ -24,6 +24,7 @@ from botschool.grading.declare.exercise import (
     missing_packages,
 )
 from botschool.output import save_bytes
+from botschool.page.exercise import PAGE, has_page, write_exercise_page
 
 
 def original(number: int, root: Path) -> str:
@@ -52,6 +53,19 @@ def start(number: int, root: Path) -> tuple[Path, bool]:
         return file, False
     save_bytes(file, original(number, root).encode())
     return file, True
+
+
+def living_page(number: int, root: Path) -> Path | None:
+    """Return the living page of an exercise, made anew unless it came with the copy.
+
+    Return None if the exercise's text has no figures. Raises BotschoolError if the core for pages
+    is not built.
+    """
+    folder = folder_of(number, root)
+    if not has_page(folder):
+        return None
+    came = (root / MANIFEST).is_file() and (folder / PAGE).is_file()
+    return folder / PAGE if came else write_exercise_page(folder)
 
 
 def reset(number: int, root: Path) -> tuple[Path, Path | None]:

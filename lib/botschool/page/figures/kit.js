@@ -1,4 +1,4 @@
-// What figures of the exercises' pages are made of (docs/page.md, "A figure"): figure(name, spec) puts one
+// What figures of the exercises' pages are made of (docs/architecture.md): figure(name, spec) puts one
 // where the text names it. A figure has a `state` of plain values; what a hand changes goes through
 // set(), press(), drag(), click() and reset(), for people and tests alike.
 
