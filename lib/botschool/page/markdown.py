@@ -60,5 +60,6 @@ def _draw_formula(renderer: Any, tokens: Any, index: int, options: Any, env: Any
     from latex2mathml.converter import convert
 
     token = tokens[index]
-    formula = convert(token.content, display="block" if token.block else "inline")
+    text = token.content.replace("\\operatorname", "\\mathrm")
+    formula = convert(text, display="block" if token.block else "inline")
     return formula.replace("<math ", f'<math aria-label="{escape(token.content, quote=True)}" ', 1)
