@@ -60,6 +60,11 @@ def _draw_formula(renderer: Any, tokens: Any, index: int, options: Any, env: Any
     from latex2mathml.converter import convert
 
     token = tokens[index]
-    text = token.content.replace("\\operatorname", "\\mathrm")
+    text = re.sub(r"\\(operatorname|mathrm)\{([^}]*)\}", _word, token.content)
     formula = convert(text, display="block" if token.block else "inline")
     return formula.replace("<math ", f'<math aria-label="{escape(token.content, quote=True)}" ', 1)
+
+
+def _word(found: re.Match) -> str:
+    """Return a word of a formula as text, which a page sets without gaps."""
+    return rf"\text{{{found[2]}}}".replace(r"\ ", " ")
