@@ -1,10 +1,10 @@
 """The figure of exercise 10: by hand, blind and hit, it is the command's robot on two wheels."""
 
 import numpy as np
-from living import ROOT, built, focus, open_figures
 
 from botschool import _core, config
 from botschool.problems.native import NativeProblem
+from living import ROOT, built, focus, open_figures
 
 
 class Balancer:
