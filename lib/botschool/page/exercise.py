@@ -73,7 +73,7 @@ def exercise_page(folder: Path, link: Callable[[str], str] = lambda target: targ
         ("/*TEXT*/", render(POINTER.sub("", text), folder, link)),
         ("/*DATA*/", packed(json.dumps(data, separators=(",", ":")).encode())),
         ("/*CORE*/", packed(core) if core else ""),
-        ("/*SCRIPTS*/", "\n".join([_painter(), *read])),
+        ("/*SCRIPTS*/", "\n".join([_painter(data), *read])),
     ):
         page = page.replace(mark, content)
     return page
@@ -120,9 +120,14 @@ def robot(
     return found
 
 
-def _painter() -> str:
+def _painter(data: dict[str, Any]) -> str:
     """Return a function of JavaScript that makes a function which draws a scene's steps."""
-    both = shorter(drawing({"space": True}))
+    scenes = [each["scene"] for each in data.values() if isinstance(each, dict) and "scene" in each]
+    if not scenes:
+        return ""
+    spatial = [scene for scene in scenes if "space" in scene]
+    draw, _, charts = drawing((spatial or [None])[0]).partition("// The charts\n")
+    both = shorter(draw + charts[charts.find("// Draws a body in space") :] if spatial else draw)
     return f"""
 function painter(scene) {{
 const data = {{ palette: page.palette, scene, groups: [] }};

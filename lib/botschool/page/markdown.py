@@ -6,6 +6,7 @@ import re
 from base64 import b64encode
 from collections.abc import Callable
 from html import escape
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
@@ -39,9 +40,17 @@ def render(text: str, folder: Path, link: Callable[[str], str] = lambda target: 
 
 
 def picture(path: Path) -> str:
-    """Return a picture as a URL that holds it."""
-    kind = {".svg": "svg+xml", ".webp": "webp"}.get(path.suffix, "png")
-    return f"data:image/{kind};base64,{b64encode(path.read_bytes()).decode()}"
+    """Return a picture as a URL that holds it, as WebP where that is smaller."""
+    from PIL import Image
+
+    content, kind = path.read_bytes(), "svg+xml" if path.suffix == ".svg" else path.suffix[1:]
+    if kind == "png":
+        smaller = BytesIO()
+        Image.open(path).convert("RGBA").save(smaller, "WEBP", lossless=True, method=4)
+        content, kind = min(
+            (content, kind), (smaller.getvalue(), "webp"), key=lambda one: len(one[0])
+        )
+    return f"data:image/{kind};base64,{b64encode(content).decode()}"
 
 
 def _formula(state: Any, silent: bool) -> bool:
