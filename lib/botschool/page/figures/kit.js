@@ -11,7 +11,8 @@ const still = location.hash === "#still" || matchMedia("(prefers-reduced-motion:
 
 // Defines a figure. spec: title, tries, notice (one line each), says(f): a text for those who do not see
 // it, state(f): a fresh state, draw(f), and as needed aspect, status(f), sliders, choices, toggles,
-// buttons, keys, holds, grips(f), click(f, x, y), begin(f), changed(f, keys), step(f), fps.
+// buttons, keys, holds, grips(f), click(f, x, y), begin(f), changed(f, keys), step(f), fps. A grip is {name,
+// at, reach, move(x, y)}, or with by(dx, dy) a handle that stays where it is.
 function figure(name, spec) {
   specs[name] = spec;
 }
@@ -140,8 +141,11 @@ class Figure {
   }
 
   // Takes the grip with a name to a place in the picture.
-  drag(name, x, y) {
-    this.grips().find((grip) => grip.name === name).move(x, y);
+  drag(name, x, y, from) {
+    const grip = this.grips().find((each) => each.name === name);
+    const [x0, y0] = from ?? grip.at;
+    if (grip.by) grip.by(x - x0, y - y0);
+    else grip.move(x, y);
     this.show();
   }
 
@@ -292,12 +296,15 @@ class Figure {
       try { canvas.setPointerCapture(event.pointerId); } catch { /* a made-up pointer */ }
     });
     canvas.addEventListener("pointermove", (event) => {
-      if (held !== undefined && held !== null) this.drag(held, ...place(event));
+      if (held) {
+        this.drag(held, ...place(event), began);
+        began = place(event);
+      }
       else if (event.pointerType === "mouse") canvas.style.cursor = near(...place(event)) ? "grab" : spec.click ? "pointer" : "";
     });
     canvas.addEventListener("pointerup", (event) => {
       const [x, y] = place(event);
-      if (began && (held === undefined || held === null) && Math.hypot(x - began[0], y - began[1]) < 8) this.click(x, y);
+      if (began && !held && Math.hypot(x - began[0], y - began[1]) < 8) this.click(x, y);
       held = began = null;
     });
     canvas.addEventListener("pointercancel", () => { held = began = null; });
