@@ -407,6 +407,27 @@ class Plot {
     return this;
   }
 
+  // Draws a landscape of heights from 0 to 1: the higher, the fuller the colour.
+  ground(height, name, bands = 12) {
+    const [left, top, width, high] = this.box;
+    const size = 240;
+    const [colour0, sheet] = [colour(name), document.createElement("canvas")];
+    sheet.width = sheet.height = size;
+    const pen = sheet.getContext("2d");
+    const image = pen.createImageData(size, size);
+    const parts = [1, 3, 5].map((at) => parseInt(colour0.slice(at, at + 2), 16));
+    for (let row = 0; row < size; row++) {
+      for (let column = 0; column < size; column++) {
+        const [x, y] = this.at(left + ((column + 0.5) / size) * width, top + ((row + 0.5) / size) * high);
+        const share = Math.floor(between(height(x, y), 0, 1) * bands) / bands;
+        image.data.set([...parts, 200 * share + 12], 4 * (row * size + column));
+      }
+    }
+    pen.putImageData(image, 0, 0);
+    this.pen.drawImage(sheet, left, top, width, high);
+    return this;
+  }
+
   // Draws only inside the axes.
   clipped(action) {
     this.pen.save();
@@ -452,6 +473,33 @@ class Plot {
     pen.fillText(words, this.x(x), this.y(y));
     return this;
   }
+
+  // Writes above the plot what its lines are; entries: [words, name of the colour].
+  legend(entries) {
+    const { pen, box: [left, top] } = this;
+    pen.font = "13px system-ui, sans-serif";
+    pen.textAlign = "left";
+    pen.textBaseline = "middle";
+    let x = left;
+    for (const [words, name] of entries) {
+      pen.fillStyle = colour(name);
+      pen.fillText(words, x, top - 10);
+      x += pen.measureText(words).width + 14;
+    }
+    return this;
+  }
+}
+
+// Writes words beside x, readable over lines.
+function label(pen, words, x, y, name, align = "right") {
+  pen.font = "12px system-ui, sans-serif";
+  pen.textAlign = align;
+  pen.textBaseline = "middle";
+  pen.lineWidth = 4;
+  pen.strokeStyle = colour("paper");
+  pen.strokeText(words, x, y);
+  pen.fillStyle = colour(name);
+  pen.fillText(words, x, y);
 }
 
 // Draws a round handle that can be dragged.
