@@ -1,0 +1,79 @@
+"""The ten runs of exercise 4's figure are the command's, and so is what their robots are worth."""
+
+import numpy as np
+import pytest
+
+from botschool import config
+from botschool.course import SavedRobot
+from botschool.evolution.run import Run
+from botschool.paths import material
+from living import built, click, focus, open_figures, slide, state
+
+ACROBOT = material() / "data/experiments/acrobot.ini"
+
+
+def followed(seed, generations, **policy):
+    """Run some generations of the experiment with a seed."""
+    experiment = config.load(ACROBOT)
+    for key, value in policy.items():
+        setattr(experiment.policy, key, value)
+    run = Run(experiment, seed)
+    for _ in range(generations):
+        run.advance()
+    return run.record
+
+
+@built
+@pytest.mark.parametrize("policy", [{}, {"episodes": 5, "pepisodes": 1}])
+def test_ten_runs_are_the_command_s(browser, policy, tmp_path):
+    open_figures(browser, 4, tmp_path)
+    for key, value in policy.items():
+        browser.run(f"figures.runs.press('{key}-{value}')")
+    browser.run("figures.runs.advance(10)")
+    made = state(browser, "runs")["generations"]
+    assert sum(made) == 20 and min(made) >= 1
+    for seed in (1, 4, 10):
+        record = followed(seed, made[seed - 1], **policy)
+        rows = browser.run(f"figures.runs.rows[{seed - 1}]")
+        assert rows == record.rows()[:, :6].tolist()
+        found = browser.run(f"[...figures.runs.runs[{seed - 1}].bestg]")
+        assert found == record.bestg.tolist()
+    new = SavedRobot(ACROBOT, record.bestg).evaluate(2_000_000, 200).mean()
+    kept = browser.run("tried(figures.runs.robots[9].task, figures.runs.runs[9].bestg)")
+    assert kept == pytest.approx(new, rel=1e-12)
+    assert browser.errors == []
+
+
+@built
+def test_a_run_is_chosen_and_a_guess_is_kept(browser, tmp_path):
+    open_figures(browser, 4, tmp_path)
+    slide(browser, "runs", "guess", -90)
+    browser.run("figures.runs.advance(6)")
+    left, top, width, height = browser.run("tiles(figures.runs)[6]")
+    click(browser, "runs", left + width / 2, top + height / 2)
+    assert state(browser, "runs")["chosen"] == 7
+    focus(browser, "runs")
+    browser.press("ArrowRight")
+    s = state(browser, "runs")
+    assert (s["chosen"], s["guess"]) == (8, -90)
+    assert "seed 8" in browser.run("figures.runs.line.textContent")
+    rows = followed(8, s["generations"][7]).rows()
+    best = np.format_float_positional(rows[-1, 1], trim="-").replace("-", "−")
+    assert f"best {best}," in browser.run("figures.runs.line.textContent")
+    assert browser.errors == []
+
+
+@built
+def test_robots_are_measured_at_the_end_of_their_runs(browser, tmp_path):
+    open_figures(browser, 4, tmp_path)
+    browser.run("figures.runs.advance(5)")
+    # as if the first run had used its steps
+    browser.run("figures.runs.rows.forEach((rows, i) => { rows.at(-1)[0] = i ? 400000 : 300000 })")
+    browser.run("figures.runs.advance(5)")
+    assert all(state(browser, "runs")["worth"])
+    record = followed(1, 1)
+    for kind in ("best", "bestg"):
+        new = SavedRobot(ACROBOT, getattr(record, kind)).evaluate(2_000_000, 200).mean()
+        assert state(browser, "runs")["worth"][0][kind] == pytest.approx(new, rel=1e-12)
+    assert "your guess was −65" in browser.run("figures.runs.line.textContent")
+    assert browser.errors == []
