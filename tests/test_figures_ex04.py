@@ -77,3 +77,33 @@ def test_robots_are_measured_at_the_end_of_their_runs(browser, tmp_path):
         assert state(browser, "runs")["worth"][0][kind] == pytest.approx(new, rel=1e-12)
     assert "your guess was −65" in browser.run("figures.runs.line.textContent")
     assert browser.errors == []
+
+
+def dice(seed, at, count):
+    """The sum of a throw, with the page's uniform()."""
+
+    def product(a, b):
+        return a * b & 0xFFFFFFFF
+
+    state, total = 1_000_000 * seed + at + 1, 0
+    for _ in range(count):
+        state = state + 0x6D2B79F5 & 0xFFFFFFFF
+        mixed = product(state ^ state >> 15, state | 1)
+        mixed ^= mixed + product(mixed ^ mixed >> 7, mixed | 61) & 0xFFFFFFFF
+        total += 1 + 6 * (mixed ^ mixed >> 14) // 2**32
+    return total
+
+
+@built
+def test_the_highest_throw_keeps_no_promise(browser, tmp_path):
+    open_figures(browser, 4, tmp_path)
+    slide(browser, "dice", "dice", 20)
+    browser.run("figures.dice.press('other')")
+    browser.run("figures.dice.advance(200)")
+    browser.run("figures.dice.press('same')")
+    s = state(browser, "dice")
+    assert s["sums"] == [dice(2, at, 20) for at in range(1000)]
+    assert s["again"] == [dice(2, 500_000 + at, 20) for at in range(10)]
+    assert max(s["sums"]) > 90 > np.mean(s["again"])
+    assert f"highest {max(s['sums'])}" in browser.run("figures.dice.line.textContent")
+    assert browser.errors == []

@@ -165,3 +165,65 @@ function drawWorth(f, box) {
   })));
   plot.legend([["● promised", "ink"], ["○ in new episodes", "ink"], ["guess", "goal"]]);
 }
+
+const THROWS = 1000;
+
+figure("dice", {
+  title: "The highest of a thousand throws",
+  tries: "first guess: how far above 35, the mean of ten dice, will the highest sum of a thousand throws be? Press <b>Throw</b>. Then throw the same dice again.",
+  notice: "no throw is better than the others, and yet the highest makes a fine promise. It keeps none of it: dice know nothing of their record. More dice in a throw are like more episodes of a candidate.",
+  aspect: (f) => (narrow(f) ? 1 : 1.9),
+  state: () => ({ dice: 10, seed: 1, sums: [], again: [] }),
+  sliders: { dice: { label: "dice in a throw", low: 1, high: 20, step: 1 } },
+  buttons: {
+    same: ["Throw the best dice again", (f) => rethrow(f.state)],
+    other: ["Other random numbers", (f) => { f.stop(); Object.assign(f.state, { seed: f.state.seed + 1, sums: [], again: [] }); }],
+  },
+  changed(f) { f.stop(); Object.assign(f.state, { sums: [], again: [] }); },
+  play: "Throw",
+  fps: 40,
+  step(f) {
+    for (let i = 0; i < 5 && f.state.sums.length < THROWS; i++) f.state.sums.push(thrown(f.state, f.state.sums.length));
+    if (f.state.sums.length >= THROWS) f.stop();
+  },
+  draw(f, pen) {
+    const { state: s } = f;
+    // per die, so that throws with more dice can be compared
+    const bins = Array.from({ length: 101 }, () => 0);
+    for (const sum of s.sums) bins[Math.round((sum / s.dice - 1) * 20)] += 1;
+    const plot = f.plot({ x: [1, 6], y: [0, Math.max(20, ...bins) * 1.15], box: [0, 18, f.width, f.height - 18], labels: ["mean of the dice in a throw", "throws"], ticks: [5, 4] }).axes();
+    const wide = Math.max(2, 0.042 * (plot.x(2) - plot.x(1)));
+    pen.fillStyle = colour("muted");
+    pen.globalAlpha = 0.7;
+    bins.forEach((count, i) => count && pen.fillRect(plot.x(1 + i / 20) - wide / 2, plot.y(count), wide, plot.y(0) - plot.y(count)));
+    pen.globalAlpha = 1;
+    const mark = (value, name, high) => plot.line([[value, 0], [value, high * plot.range[1][1]]], name, 2.5).dots([[value, high * plot.range[1][1]]], name, 5);
+    mark(3.5, "goal", 0.98);
+    if (s.sums.length) mark(Math.max(...s.sums) / s.dice, "orange", 0.8);
+    if (s.again.length) {
+      plot.dots(s.again.map((sum, i) => [sum / s.dice, (0.05 + 0.012 * (i % 50)) * plot.range[1][1]]), "blue", 4, 0.6);
+      mark(mean(s.again) / s.dice, "blue", 0.88);
+    }
+    plot.legend([["expected", "goal"], ["highest", "orange"], ["the same dice again", "blue"]]);
+  },
+  status({ state: s }) {
+    if (!s.sums.length) return `${s.dice} dice a throw: ${number(3.5 * s.dice, 1)} on average`;
+    const again = s.again.length ? ` · the same dice again: ${s.again.at(-1)}, on average of ${s.again.length} ${number(mean(s.again), 1)}` : "";
+    return `${s.sums.length} throws · mean ${number(mean(s.sums), 1)} · highest ${Math.max(...s.sums)}${again}`;
+  },
+  says: ({ state: s }) => (s.sums.length
+    ? `After ${s.sums.length} throws of ${s.dice} dice the highest sum is ${Math.max(...s.sums)}, the mean ${number(mean(s.sums), 1)}. ${s.again.length ? `Thrown again, the same dice make ${number(mean(s.again), 1)} on average.` : ""}`
+    : `Nothing is thrown yet. ${s.dice} dice make ${number(3.5 * s.dice, 1)} on average.`),
+});
+
+// Returns the sum of the dice in a throw with a number.
+function thrown({ seed, dice }, at) {
+  const draw = uniform(1e6 * seed + at);
+  let sum = 0;
+  for (let i = 0; i < dice; i++) sum += 1 + Math.floor(6 * draw());
+  return sum;
+}
+
+function rethrow(s) {
+  for (let i = 0; i < 10; i++) s.again.push(thrown(s, 500000 + s.again.length));
+}
