@@ -1,0 +1,81 @@
+"""The hoppers of exercise 9's figure act, earn and are pushed as the module's stepper says."""
+
+import numpy as np
+import pytest
+
+from botschool import _core
+from botschool.page.figures import ex09
+from botschool.problems import of
+from living import built, click, open_figures, slide, state
+
+SPEED = 6
+"""Index of a hopper's speed ahead in its state."""
+
+
+def played(row, column, steps, push=0.0):
+    """Return a hopper's states and rewards in the first post-evaluation of seed 1.
+
+    push: added to its speed before the last step.
+    """
+    experiment = ex09.experiment(ex09.BONUSES[row])
+    policy = of(experiment).policy(experiment.policy)
+    policy.load(*policy.split(np.load(ex09.FILE)[row, column].astype(float)))
+    policy.reset(100_001, 0)
+    stepper = _core.make_stepper("PlanarHopper-v5")
+    stepper.set(experiment.policy.maxsteps)
+    stepper.start(100_001, 0)
+    states, rewards = [stepper.state.copy()], []
+    for step in range(steps):
+        if push and step == steps - 1:
+            state = stepper.state
+            state[SPEED] += push
+            stepper.state = state
+        action = policy.act(stepper.observation).astype(np.float64)
+        reward, ended = stepper.step(action)
+        rewards.append(reward)
+        states.append(stepper.state.copy())
+        if ended:
+            break
+    return np.array(states), rewards
+
+
+@built
+def test_hoppers_earn_what_the_problem_pays(browser, tmp_path):
+    open_figures(browser, 9, tmp_path)
+    browser.run("figures.bonus.advance(60)")
+    for row, column in ((0, 1), (2, 3), (5, 0)):
+        slide(browser, "bonus", "bonus", row)
+        browser.run(f"figures.bonus.press('seed-{column + 1}')")
+        states, rewards = played(row, column, 120)
+        assert browser.run("[...chosen(figures.bonus).state]") == states[-1].tolist()
+        earned = browser.run(f"earned({row}, chosen(figures.bonus))")
+        assert earned["progress"] == pytest.approx(sum(rewards), rel=1e-12)
+        assert earned["standing"] == pytest.approx(120 * ex09.BONUSES[row])
+        told = browser.run("figures.bonus.line.textContent")
+        assert f"bonus {ex09.BONUSES[row]:g}, seed {column + 1}:" in told
+        assert f"{states[-1][0] - states[0][0]:.1f} m" in told
+    assert browser.errors == []
+
+
+@built
+def test_a_hopper_is_chosen_on_the_track_and_pushed(browser, tmp_path):
+    open_figures(browser, 9, tmp_path)
+    browser.run("figures.bonus.advance(50)")
+    place = "(({ track }) => [track.x(metres(figures.bonus.hoppers[1][2])), track.y(-1.5)])"
+    click(browser, "bonus", *browser.run(f"{place}(plots(figures.bonus))"))
+    s = state(browser, "bonus")
+    assert (s["bonus"], s["seed"]) == (1, "3")
+    browser.run("figures.bonus.press('right')")
+    browser.run("chosen(figures.bonus).step()")
+    states, rewards = played(1, 2, 101, push=1.0)
+    assert browser.run("[...chosen(figures.bonus).state]") == states[-1].tolist()
+    assert browser.run("chosen(figures.bonus).total") == pytest.approx(sum(rewards), rel=1e-12)
+    browser.run("figures.bonus.reset()")
+    assert browser.run("[...chosen(figures.bonus).state]") == played(0, 0, 0)[0][0].tolist()
+    assert browser.errors == []
+
+
+def test_the_experiment_pays_the_bonus():
+    for bonus in ex09.BONUSES:
+        assert of(ex09.experiment(bonus)).alive == bonus
+    assert np.load(ex09.FILE).shape[:2] == (len(ex09.BONUSES), len(ex09.SEEDS))
