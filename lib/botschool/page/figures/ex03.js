@@ -127,7 +127,7 @@ function panels(f) {
 
 function drawMap(f, map) {
   const { state: s, pen } = f;
-  map.ground(ground(s), "goal");
+  map.ground(ground(s), "goal", [s.low, s.high]);
   map.clipped(() => {
     s.from.forEach((parent, i) => parent && map.line([parent, s.population[i]], "orange", 1, 0.45));
     s.gone.forEach(([x, y]) => {

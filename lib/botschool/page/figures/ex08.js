@@ -113,7 +113,7 @@ function parts(f) {
 
 function drawCloud(f, map) {
   const { state: s, pen } = f;
-  map.ground(GROUNDS[s.ground], "muted");
+  map.ground(GROUNDS[s.ground], "muted", s.ground);
   map.clipped(() => {
     s.candidates.forEach((one) => map.line([s.x, one], "ink", 1, 0.3));
     map.line(s.trail, "orange", 2).dots(s.trail, "orange", 2.5);

@@ -18,7 +18,7 @@ FILE = Path(__file__).with_suffix(".npy")
 """The robots: (bonuses, seeds, numbers), in single precision."""
 BONUSES = (0.0, 0.05, 0.1, 0.2, 0.5, 1.0)
 SEEDS = (1, 2, 3, 4, 5)
-NETWORK = {"nhiddens": 10}
+NETWORK: dict[str, Any] = {"nhiddens": 10}
 
 
 def experiment(bonus: float) -> config.Experiment:

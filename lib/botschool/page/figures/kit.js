@@ -342,6 +342,8 @@ class Figure {
 // Axes in a figure's picture. x, y: [low, high]; box: left, top, width, height in pixels, with room for
 // labels at the left and below.
 class Plot {
+  static grounds = new Map();
+
   constructor(figure, { x, y, box, labels = ["", ""], ticks = [5, 4], show = String }) {
     const [left, top, width, height] = box ?? [0, 0, figure.width, figure.height];
     this.pen = figure.pen;
@@ -407,24 +409,27 @@ class Plot {
     return this;
   }
 
-  // Draws a landscape of heights from 0 to 1: the higher, the fuller the colour.
-  ground(height, name, bands = 12) {
+  // Draws a landscape of heights from 0 to 1: the higher, the fuller the colour. key: says what the
+  // heights depend on; an equal landscape is not computed again.
+  ground(height, name, key, bands = 12) {
     const [left, top, width, high] = this.box;
-    const size = 240;
-    const [colour0, sheet] = [colour(name), document.createElement("canvas")];
-    sheet.width = sheet.height = size;
-    const pen = sheet.getContext("2d");
-    const image = pen.createImageData(size, size);
-    const parts = [1, 3, 5].map((at) => parseInt(colour0.slice(at, at + 2), 16));
-    for (let row = 0; row < size; row++) {
-      for (let column = 0; column < size; column++) {
-        const [x, y] = this.at(left + ((column + 0.5) / size) * width, top + ((row + 0.5) / size) * high);
-        const share = Math.floor(between(height(x, y), 0, 1) * bands) / bands;
-        image.data.set([...parts, 200 * share + 12], 4 * (row * size + column));
+    const [[[x0, x1], [y0, y1]], size, shade] = [this.range, 240, colour(name)];
+    const wanted = JSON.stringify([key, this.range, shade, bands]);
+    if (Plot.grounds.get(name)?.wanted !== wanted) {
+      const sheet = document.createElement("canvas");
+      sheet.width = sheet.height = size;
+      const pen = sheet.getContext("2d");
+      const image = pen.createImageData(size, size);
+      const parts = [1, 3, 5].map((at) => parseInt(shade.slice(at, at + 2), 16));
+      for (let i = 0; i < size * size; i++) {
+        const value = height(x0 + (((i % size) + 0.5) / size) * (x1 - x0), y1 - ((Math.floor(i / size) + 0.5) / size) * (y1 - y0));
+        for (let k = 0; k < 3; k++) image.data[4 * i + k] = parts[k];
+        image.data[4 * i + 3] = 12 + 200 * (Math.floor(between(value, 0, 1) * bands) / bands);
       }
+      pen.putImageData(image, 0, 0);
+      Plot.grounds.set(name, { wanted, sheet });
     }
-    pen.putImageData(image, 0, 0);
-    this.pen.drawImage(sheet, left, top, width, high);
+    this.pen.drawImage(Plot.grounds.get(name).sheet, left, top, width, high);
     return this;
   }
 
