@@ -56,6 +56,15 @@ def at_one_end(answer, observation):
     return states
 
 
+TURN = np.linspace(-3, 3, 61)
+state.draws(
+    "The angle rises along a line while cosine and sine go around; the velocity is as observed.",
+    "true angle (rad)", "angle (rad), velocity (rad/s)",
+    kind="curves", call=("to_state", observed(np.stack([TURN, 2 * np.sin(2 * TURN)], axis=1))),
+    of=lambda answer, *_: {"angle and velocity": answer, "over": TURN},
+)  # fmt: skip
+
+
 @same(state, 6, "to_state", 1e-5, view=at_one_end)
 def one_observation(rng):
     yield from observed(np.array([[0.5, 1.0], [-2.5, -3.0], *states_in(rng, 4)]))
@@ -69,6 +78,11 @@ def many_observations(rng):
 
 # ------------------------------------------------------------------- 7.2
 recording = exercise.task("7.2", "Recording an episode", needs=("7.1",))
+PLANE = ("angle (rad), 0 is upright", "velocity (rad/s)")
+recording.draws(
+    "An episode is a path through the state space, from the ring to the disc.",
+    *PLANE, kind="points", of=lambda answer, gains, seed, steps: answer[0],
+)  # fmt: skip
 
 
 def recorded(module, gains, seed, steps):
@@ -106,6 +120,13 @@ def ends_with_the_episode(rng):
 
 # ------------------------------------------------------------------- 7.3
 changes = exercise.task("7.3", "Arrows")
+FALLING = np.stack(np.meshgrid(np.linspace(-3.1, 3.1, 15), np.linspace(-7, 7, 11)), -1).reshape(-1, 2)
+FALLEN = FALLING + 0.05 * np.stack([FALLING[:, 1], 15 * np.sin(FALLING[:, 0])], axis=1)
+FALLEN[:, 0] = (FALLEN[:, 0] + np.pi) % (2 * np.pi) - np.pi
+changes.draws(
+    "Each arrow leads from a state to the next one, also over the edge at -pi and pi: a river.",
+    *PLANE, kind="arrows", call=("arrows", FALLING, FALLEN),
+)  # fmt: skip
 COLUMNS = dict.fromkeys(("square", "one"), "a state has two numbers")
 
 
@@ -125,8 +146,6 @@ def short_way_around(rng):
 
 # ------------------------------------------------------------------- 7.4
 everywhere = exercise.task("7.4", "The whole state space", needs=("7.1",))
-
-
 @same(everywhere, 5, "grid", 1e-6)
 def grid_of_states(rng):
     yield from ((4, 5), (5, 4), (7, 12), (20, 5), (3, 2))
@@ -141,6 +160,17 @@ def stepped(module, gains, states, strongest):
         return numpy.clip([gains @ seen], -strongest, strongest)
 
     return module.next_states(controller, states)
+
+
+def river(answer, gains, states, strongest):
+    """Arrows, where neither edge is near."""
+    return {"the pendulum without a motor": np.hstack([states, np.asarray(answer) - states])}
+
+
+everywhere.draws(
+    "The pendulum without a motor, everywhere: rings around hanging, a saddle where it stands.",
+    *PLANE, kind="arrows", of=river, call=(stepped, np.zeros(3), FALLING[np.abs(FALLING[:, 0]) < 2.8], 2),
+)  # fmt: skip
 
 
 @same(everywhere, 5, stepped, 1e-5, view=parts_of)
@@ -190,6 +220,12 @@ def run(rng, generations, every, least=0.0):
     """least: what is added to every fitness."""
     prepared, target = rng.normal(size=(generations + 2, 6, 4)), rng.normal(size=4)
     return prepared, target, generations, every, least
+
+
+stages.draws(
+    "The curve is the fitness of each generation's best.",
+    "generation", "fitness", kind="curves", of=lambda answer, *_: {"history": answer["history"]},
+)  # fmt: skip
 
 
 @same(stages, 7, staged, 1e-6, parts=("the generations of evaluate", "history"))

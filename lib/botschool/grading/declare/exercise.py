@@ -18,6 +18,7 @@ from typing import Any
 
 from botschool.errors import BotschoolError, listed
 from botschool.grading.declare.mistakes import Known, case_files
+from botschool.grading.declare.picture import Picture
 from botschool.grading.declare.references import pruned
 from botschool.grading.declare.secret import DEFAULT, VARIABLE, grading_secret
 from botschool.grading.declare.trust import check_trusted
@@ -65,6 +66,12 @@ class Task:
     """The exercise's extras that the task needs."""
     exercise: Any = field(default=None, repr=False, compare=False)
     checks: list[tuple[int, str, Check]] = field(default_factory=list)
+    picture: Picture | None = None
+    """How its answers are drawn, if there is something to see in them."""
+
+    def draws(self, says: str, x: str = "", y: str = "", **how: Any) -> None:
+        """Give the task a picture; what it takes is in `Picture`."""
+        self.picture = Picture(says, x, y, **how)
 
     def check(self, points: int) -> Callable:
         """Return a decorator for a check: a function of a Student that raises Wrong if it fails."""
@@ -121,6 +128,8 @@ class Exercise:
         """A digest of the submission: under a secret, the seeds depend on it, too."""
         self.references = ""
         """A Python file with our own functions of the tasks that others need (references.py)."""
+        self.captions: dict[str, str] = {}
+        """What to look for in the files that the finished exercise makes, by their names."""
         self.known = Known(number)
         """Our solution and its known mistakes, to compare with wrong answers."""
         self.ours: Any = None

@@ -1,0 +1,156 @@
+"""Draw a task's answers: those of a submission over those of our solution."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import closing
+from dataclasses import dataclass, field
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from botschool.grading.declare.checks import Wrong
+from botschool.grading.declare.exercise import Exercise, Task, cannot_be_graded
+from botschool.grading.declare.picture import Picture
+from botschool.grading.declare.same import Same
+from botschool.grading.judge.submission import Submission, opened
+from botschool.grading.report.drawing import Panel, draw, numbers, panels_of
+from botschool.grading.run.confined import fork_server
+from botschool.grading.run.failures import NotDone
+from botschool.grading.run.student import Student
+from botschool.output import save_bytes
+
+RIGHT, WRONG, OPEN = "right", "wrong", "not done yet"
+PANELS = 6
+"""Most panels of a picture."""
+UNSEEN = "The picture does not show what is wrong: botschool explain {} lists all calls."
+
+
+@dataclass
+class Drawn:
+    """What a task's picture shows."""
+
+    task: Task
+    state: str
+    """RIGHT, WRONG or OPEN."""
+    message: str = ""
+    panels: list[Panel] = field(default_factory=list)
+
+    def save(self, folder: Path) -> Path:
+        """Write the picture and return its path. Raises BotschoolError."""
+        content, place = BytesIO(), folder / f"task_{self.task.id.replace('.', '_')}.png"
+        title = f"{self.task.id} {self.task.title}: {self.state}"
+        draw(title, self.panels, self.task.picture).savefig(content, dpi=100, format="png")
+        folder.mkdir(parents=True, exist_ok=True)
+        save_bytes(place, content.getvalue())
+        return place
+
+
+@dataclass
+class _Call:
+    """A call, with both answers."""
+
+    check: Same
+    arguments: tuple
+    wanted: Any
+    got: Any = None
+    message: str = ""
+    """Why the submission gives no answer that can be compared."""
+    right: bool = False
+
+
+def checkpoints(exercise: Exercise, tasks: list[Task], file: Path) -> Iterator[Drawn]:
+    """Yield what can be drawn of each task that has a picture.
+
+    The submission's functions run confined, as for grading. Raises BotschoolError.
+    """
+    with fork_server(exercise.imports) as server, opened(exercise, file, server) as submission:
+        for task in tasks:
+            if task.picture and not cannot_be_graded(task):
+                yield _drawn(task, task.picture, submission)
+
+
+def _drawn(task: Task, picture: Picture, submission: Submission) -> Drawn:
+    try:
+        with closing(submission.begun(task)) as student:
+            checks = [check for _, _, check in task.checks if isinstance(check, Same)]
+            calls = [call for check in checks for call in _calls(check, student)]
+            wrong = [call for call in calls if not call.right]
+            message = next((call.message for call in wrong if call.message), "")
+            panels: list[Panel] = []
+            if picture.call:
+                what, *given = picture.call
+                own = Same(task, what, lambda rng: [tuple(given)], 1e-9, (), None, {})
+                panels = _panels(next(_calls(own, student)), picture, not wrong)
+            if not any(panel.apart for panel in panels) and (wrong or not picture.call):
+                how = Picture(picture.says) if picture.call else picture
+                panels = _of_checks(wrong or calls, how, not wrong) or panels
+            if wrong and not any(panel.apart for panel in panels):
+                message = f"{message} {UNSEEN.format(task.id)}".strip()
+            return Drawn(task, WRONG if wrong else RIGHT, message, panels[:PANELS])
+    except NotDone as error:
+        return Drawn(task, OPEN, str(error))
+    except Wrong as error:
+        return Drawn(task, WRONG, str(error))
+
+
+def _calls(check: Same, student: Student) -> Iterator[_Call]:
+    """Yield the calls of a check, the largest input last. Raises NotDone."""
+    for arguments in [*(each for _, each in check.more()), *check.inputs()]:
+        ours = check.task.exercise.ours.answer(check.what, arguments)
+        if ours.raised:
+            continue
+        call = _Call(check, arguments, ours.value)
+        try:
+            call.got = check.ask(student, arguments, ours.seconds)
+            check.seen(student.said, call.got, arguments)
+            call.right = check.equal(arguments, call.got, ours.value)
+        except NotDone:
+            raise
+        except Wrong as error:
+            call.message = str(error)
+        yield call
+
+
+def _of_checks(calls: list[_Call], picture: Picture, right: bool) -> list[Panel]:
+    """Return panels of the largest call of each check; of right ones, of each function once."""
+    groups: dict[Any, list[_Call]] = {}
+    for call in calls:
+        groups.setdefault(call.check.what if right else call.check, []).append(call)
+    return [panel for group in groups.values() for panel in _of_one(group, picture, right)]
+
+
+def _of_one(group: list[_Call], picture: Picture, right: bool) -> list[Panel]:
+    pairs = [(numbers(call.got), numbers(call.wanted)) for call in group]
+    single = [(a, b) for a, b in pairs if a is not None and b is not None and a.ndim == b.ndim == 0]
+    if len(single) > 1 and len(single) == len(pairs) and not picture.of:
+        yours, expected = (np.array(column) for column in zip(*single, strict=True))
+        return [Panel(_name(group[0]), yours, expected, "against")]
+    return next(filter(None, (_panels(call, picture, right) for call in reversed(group))), [])
+
+
+def _panels(call: _Call, picture: Picture, right: bool) -> list[Panel]:
+    """Return the panels of a call; of a wrong one, those that differ."""
+    try:
+        wanted = _shown(call.wanted, call, picture)
+    except (LookupError, TypeError, ValueError):  # the picture is of another function
+        return []
+    try:
+        got = _shown(call.got, call, picture)
+    except Exception:  # an answer of another form
+        got = None
+    panels = panels_of(_name(call), got, wanted, picture, right, call.check.parts)
+    return [panel for panel in panels if panel.apart] or panels
+
+
+def _shown(answer: Any, call: _Call, picture: Picture) -> Any:
+    if picture.of is not None:
+        return picture.of(answer, *call.arguments)
+    return answer if call.check.view is None else call.check.view(answer, *call.arguments)
+
+
+def _name(call: _Call) -> str:
+    what = call.check.what
+    return what if isinstance(what, str) else call.check.__name__.replace("_", " ")
