@@ -120,7 +120,8 @@ def ends_with_the_episode(rng):
 
 # ------------------------------------------------------------------- 7.3
 changes = exercise.task("7.3", "Arrows")
-FALLING = np.stack(np.meshgrid(np.linspace(-3.1, 3.1, 15), np.linspace(-7, 7, 11)), -1).reshape(-1, 2)
+ALL_OVER = np.meshgrid(np.linspace(-3.1, 3.1, 15), np.linspace(-7, 7, 11))
+FALLING = np.stack(ALL_OVER, axis=-1).reshape(-1, 2)
 FALLEN = FALLING + 0.05 * np.stack([FALLING[:, 1], 15 * np.sin(FALLING[:, 0])], axis=1)
 FALLEN[:, 0] = (FALLEN[:, 0] + np.pi) % (2 * np.pi) - np.pi
 changes.draws(
@@ -169,7 +170,8 @@ def river(answer, gains, states, strongest):
 
 everywhere.draws(
     "The pendulum without a motor, everywhere: rings around hanging, a saddle where it stands.",
-    *PLANE, kind="arrows", of=river, call=(stepped, np.zeros(3), FALLING[np.abs(FALLING[:, 0]) < 2.8], 2),
+    *PLANE, kind="arrows", of=river,
+    call=(stepped, np.zeros(3), FALLING[np.abs(FALLING[:, 0]) < 2.8], 2),
 )  # fmt: skip
 
 

@@ -126,9 +126,9 @@ def watch(
     watch_command(what, submission)
 
 
-@app.command(epilog="Example: botschool show 3")
+@app.command(epilog="Example: botschool show 3, or botschool show 3.2 for one task")
 def show(
-    exercise: Number,
+    what: Annotated[str, typer.Argument(help="Exercise N or task N.T.", metavar="N[.T]")],
     submission: Submission = None,
     opens: Annotated[
         bool,
@@ -140,14 +140,17 @@ def show(
         bool, typer.Option("--answers", help="Show the answers instead; you need full marks.")
     ] = False,
 ) -> None:
-    """Run your finished file in results/exNN and open the result."""
+    """Draw what you have done in results/exNN and open it: all of it, or a task beside ours.
+
+    Of a finished exercise, the command runs your file and shows what it makes.
+    """
     from botschool.grading.commands import answers_command, show_command
     from botschool.labs.commands import lead_to
 
     if answers:
-        answers_command(exercise)
+        answers_command(what)
     else:
-        lead_to(show_command(exercise, submission, opens))
+        lead_to(show_command(what, submission, opens))
 
 
 @app.command(epilog="Example: botschool trust ~/course")

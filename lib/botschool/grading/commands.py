@@ -10,7 +10,6 @@ import sys
 import tempfile
 import time
 import traceback
-from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -339,40 +338,46 @@ def reset_command(what: str) -> None:
         print(f"{name} is back at its beginning; your version is kept as {os.path.relpath(kept)}.")
 
 
+@exits_on_signals()
 @temporary_files_within()
 def show_command(what: str, submission: str | None, opens: bool) -> int:
-    """Run a finished exercise, name what it has made, open it, and return its number."""
-    from botschool.grading.report.progress import answers
-    from botschool.grading.report.showing import make_page, open_page, show
+    """Show a finished exercise, what is done of one, or a task; open it.
 
-    number = _named(what)[0]
-    file = None
-    if submission is not None:
-        exercise = load_exercise(number)
-        found, _ = _found(exercise, submission, exercise.tasks)
+    Return the number of a finished exercise, else 0.
+    """
+    from botschool.grading.report.showing import (
+        open_page,
+        show_done,
+        show_one,
+        show_whole,
+        unfinished,
+    )
+
+    (number, task), root = _named(what), course_root().resolve()
+    exercise = load_exercise(number)
+    chosen = [exercise.find(what)] if task else exercise.tasks
+    if submission is None:
+        file = submission_file(number, None)
+    else:
+        found, _ = _found(exercise, submission, chosen)
         file = found.file
         for note in found.notes:
             print(note)
-        _warn_of_unconfined(found.shown)
-    made = show(number, file)
-    folder = course_root().resolve() / "results" / f"ex{number:02d}"
-    tops = Counter(path.relative_to(folder).parts[0] for path in made)
-    for name, files in tops.items():
-        what = f"{files} files" if (folder / name).is_dir() else _size(folder / name)
-        print(f"made: {os.path.relpath(folder / name)}  ({what})")
-    _lead_to_page(number, course_root(), Console(highlight=False, soft_wrap=True), False)
-    page = make_page(number, made)
+    whole = not task and not unfinished(file)
+    if task:
+        page: Path | None = show_one(exercise, chosen[0], file, root)
+    elif not whole:
+        page = show_done(exercise, file, root)
+    else:
+        if submission is not None:
+            _warn_of_unconfined(found.shown)
+        page = show_whole(exercise, file, root)
+    if not task:
+        _lead_to_page(number, root, Console(highlight=False, soft_wrap=True), False)
     if page:
         opened = opens and open_page(page)
-        print(f"{'opened' if opened else 'all on one page'}: {os.path.relpath(page)}")
-    with contextlib.suppress(BotschoolError):
-        if answers(number, course_root()):
-            print(f"what our solution measured: botschool show {number} --answers")
-    return number
-
-
-def _size(path: Path) -> str:
-    return f"{path.stat().st_size / 1000:.0f} kB"
+        print(f"{'opened' if opened else 'to see it, open'}: {os.path.relpath(page)}")
+    return number if whole else 0
 
 
 def answers_command(what: str) -> None:

@@ -38,7 +38,7 @@ class Picture:
     """Returns what is drawn, of an answer and its arguments: an array, or names and arrays."""
     call: tuple[Any, ...] = ()
     """A function's name, or a driver, and arguments that show more than the inputs of a check."""
-    extent: tuple[float, ...] = ()
+    extent: tuple[float, float, float, float] | None = None
     """Left, right, bottom and top of the axes."""
 
     def __post_init__(self) -> None:

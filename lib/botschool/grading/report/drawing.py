@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -149,7 +150,9 @@ def draw(title: str, panels: list[Panel], picture: Picture) -> Figure:
     if any(panel.expected is not None for panel in panels):
         words = (("expected", EXPECTED), ("yours", WRONG))
         lines = [grid[0].plot([], [], color=colour, lw=4)[0] for _, colour in words]
-        figure.legend(lines, [w for w, _ in words], loc="outside lower center", ncols=2, frameon=False)
+        figure.legend(
+            lines, [w for w, _ in words], loc="outside lower center", ncols=2, frameon=False
+        )
     return figure
 
 
@@ -158,7 +161,7 @@ def _cells(panel: Panel, picture: Picture) -> list[tuple[str, Callable[[Axes], N
     note = panel.note or (f"differs by up to {panel.apart:.3g}" if panel.apart > 0 else "")
     title = f"{panel.title}\n{note}" if note else panel.title
     if panel.kind not in ("heat", "image"):
-        return [(title, lambda axes: _overlaid(axes, panel, picture))]
+        return [(title, partial(_overlaid, panel=panel, picture=picture))]
     tables = {title: panel.yours}
     if panel.expected is not None:
         tables = {f"yours: {title}": panel.yours, "expected": panel.expected}
@@ -166,14 +169,16 @@ def _cells(panel: Panel, picture: Picture) -> list[tuple[str, Callable[[Axes], N
             tables["yours minus expected"] = panel.yours - panel.expected
     shared = [t for t in (panel.yours, panel.expected) if t is not None]
     return [
-        (name, lambda axes, name=name, table=table: _table(axes, name, table, shared, panel, picture))
+        (
+            name,
+            lambda axes, name=name, table=table: _table(axes, name, table, shared, panel, picture),
+        )
         for name, table in tables.items()
     ]
 
 
-def _table(
-    axes: Axes, name: str, table: np.ndarray | None, shared: list, panel: Panel, picture: Picture
-) -> None:
+def _table(axes: Axes, name: str, table: np.ndarray | None, panel: Panel, picture: Picture) -> None:
+    shared = [each for each in (panel.yours, panel.expected) if each is not None]
     if table is None:
         axes.axis("off")
         return
@@ -191,7 +196,7 @@ def _table(
         low = -high
     image = axes.imshow(
         np.atleast_2d(table), aspect="auto", origin="lower", interpolation="nearest",
-        cmap="RdBu_r" if minus else "viridis", vmin=low, vmax=high, extent=picture.extent or None,
+        cmap="RdBu_r" if minus else "viridis", vmin=low, vmax=high, extent=picture.extent,
     )  # fmt: skip
     axes.figure.colorbar(image, ax=axes)
     axes.set(xlabel=picture.x, ylabel=picture.y)
@@ -264,7 +269,9 @@ def _arrows(axes: Axes, array: np.ndarray, colour: str, below: bool, panel: Pane
 
 
 def _points(axes: Axes, array: np.ndarray, colour: str, below: bool, panel: Panel) -> None:
-    axes.scatter(*array.T, color=colour, s=70 if below else 16, alpha=0.6 if below else 0.9)
+    axes.scatter(
+        array[:, 0], array[:, 1], color=colour, s=70 if below else 16, alpha=0.6 if below else 0.9
+    )
 
 
 def _groups(axes: Axes, array: np.ndarray, colour: str, below: bool, panel: Panel) -> None:
@@ -274,17 +281,18 @@ def _groups(axes: Axes, array: np.ndarray, colour: str, below: bool, panel: Pane
             f"{group:g}", (x, y), (-9 if below else 9, 6), textcoords="offset points",
             color=colour, ha="center", va="center", weight="bold",
         )  # fmt: skip
-    axes.scatter(*array[:, :2].T, color="black", s=12)
+    axes.scatter(array[:, 0], array[:, 1], color="black", s=12)
 
 
 def _histogram(axes: Axes, array: np.ndarray, colour: str, below: bool, panel: Panel) -> None:
     every = [each.ravel() for each in (panel.yours, panel.expected) if each is not None]
     known = np.concatenate(every)
-    bins = np.histogram_bin_edges(known[np.isfinite(known)], bins=30)
+    bins = np.histogram_bin_edges(known[np.isfinite(known)], bins=30).tolist()
     finite = array[np.isfinite(array)]
     weights = np.full(finite.size, 1 / max(1, finite.size))
-    kind = "stepfilled" if below or panel.expected is None else "step"
-    axes.hist(finite, bins, weights=weights, color=colour, histtype=kind, lw=2)
+    filled = below or panel.expected is None
+    form: Literal["stepfilled", "step"] = "stepfilled" if filled else "step"
+    axes.hist(finite, bins, weights=weights, color=colour, histtype=form, lw=2)
 
 
 def _shapes(axes: Axes, array: np.ndarray, colour: str, below: bool, panel: Panel) -> None:

@@ -1,4 +1,4 @@
-"""Run a finished exercise as a whole in results/exNN, and show what it has made."""
+"""Show what is made: by a finished exercise as a whole, by its done tasks, or by one task."""
 
 from __future__ import annotations
 
@@ -9,15 +9,16 @@ import sys
 import tempfile
 import time
 import webbrowser
-from html import escape
+from collections import Counter
 from pathlib import Path
-from urllib.parse import quote
 
 from botschool.errors import BotschoolError
-from botschool.grading.declare.exercise import load_exercise, submission_file
+from botschool.grading.declare.checks import plain
+from botschool.grading.declare.exercise import Exercise, Task, load_exercise, submission_file
+from botschool.grading.report.album import Shown, captioned, write_album
+from botschool.grading.report.checkpoints import WRONG, checkpoints
 from botschool.grading.run.notebooks import code_cells
 from botschool.grading.run.temporary import PREFIX
-from botschool.output import save_bytes
 from botschool.paths import course_root
 
 _UNFINISHED = re.compile(r"^ *raise NotImplementedError\([\"']task (\d+\.\d+)\b", re.MULTILINE)
@@ -32,18 +33,6 @@ exec(compile(open(__file__, "rb").read(), __file__, "exec"))
 """Runs a file as a program. Python's own modules come before files beside it, as in grading."""
 _PATIENCE = 30
 """Seconds between two messages that a long run continues."""
-PAGE = "all.html"
-"""The page in results/exNN that shows everything the run has made."""
-_TAGS = {
-    ".png": '<img src="{0}" alt="{1}">',
-    ".mp4": '<video src="{0}" controls loop></video>',
-    ".html": '<iframe src="{0}" title="{1}"></iframe>',
-}
-_STYLE = """
-body { font: 16px/1.5 system-ui, sans-serif; max-width: 1100px; margin: 2rem auto; padding: 0 1rem }
-img, video { max-width: 100% } iframe { width: 100%; height: 36rem; border: 1px solid #ccc }
-figure { margin: 2rem 0 } figcaption { color: #555 }
-"""
 
 
 def show(number: int, file: Path | None = None, root: Path | None = None) -> list[Path]:
@@ -57,7 +46,8 @@ def show(number: int, file: Path | None = None, root: Path | None = None) -> lis
     file = (file or submission_file(number, None, root)).resolve()
     if file.suffix == ".ipynb":
         file = _script_of(file)
-    _require_finished(file, number)
+    if tasks := unfinished(file):
+        raise BotschoolError(f"{not_done(tasks)} in {file.name}: botschool grade {number}.")
     folder = root / "results" / f"ex{number:02d}"
     folder.mkdir(parents=True, exist_ok=True)
     before = _stamps(folder)
@@ -80,17 +70,19 @@ def _script_of(notebook: Path) -> Path:
     return script
 
 
-def _require_finished(file: Path, number: int) -> None:
-    """Raise BotschoolError if an answer in the skeleton is still missing."""
-    tasks = list(
-        dict.fromkeys(_UNFINISHED.findall(file.read_text(encoding="utf-8", errors="replace")))
-    )
-    if tasks:
-        named = f"task {tasks[0]} is" if len(tasks) == 1 else f"tasks {', '.join(tasks)} are"
-        raise BotschoolError(
-            f"{named} not done yet in {file.name}. 'botschool show {number}' runs a finished "
-            f"file; 'botschool grade {number}' lists the finished tasks."
-        )
+def unfinished(file: Path) -> list[str]:
+    """Return the tasks whose answer in the skeleton is still missing."""
+    if file.suffix == ".ipynb":
+        text = "\n".join(code_cells(file))
+    else:
+        text = file.read_text(encoding="utf-8", errors="replace")
+    return list(dict.fromkeys(_UNFINISHED.findall(text)))
+
+
+def not_done(tasks: list[str]) -> str:
+    """Return the beginning of a sentence on unfinished tasks."""
+    named = f"task {tasks[0]} is" if len(tasks) == 1 else f"tasks {', '.join(tasks)} are"
+    return f"{named} not done yet"
 
 
 def _run(file: Path, folder: Path, variables: dict[str, str]) -> int:
@@ -113,27 +105,70 @@ def _stamps(folder: Path) -> dict[Path, int]:
     return {path: path.stat().st_mtime_ns for path in sorted(folder.rglob("*")) if path.is_file()}
 
 
-def make_page(number: int, made: list[Path]) -> Path | None:
-    """Write PAGE with the pictures, films and replays of `made`; return None if there are none.
+def show_whole(exercise: Exercise, file: Path, root: Path) -> Path | None:
+    """Run a finished file, name what it has made, and return its page; None if it has none."""
+    made, folder = show(exercise.number, file, root), _folder(exercise, root)
+    tops = Counter(path.relative_to(folder).parts[0] for path in made)
+    for name, files in tops.items():
+        size = f"{(folder / name).stat().st_size / 1000:.0f} kB"
+        what = f"{files} files" if (folder / name).is_dir() else size
+        print(f"made: {os.path.relpath(folder / name)}  ({what})")
+    shown = captioned(exercise, [path for path in made if path.parent == folder])
+    return write_album(exercise, shown, folder, root, "") if shown else None
 
-    Files in folders of results/exNN, such as the folders of runs, are left out. Raises
-    BotschoolError.
+
+def _folder(exercise: Exercise, root: Path) -> Path:
+    return root / "results" / f"ex{exercise.number:02d}"
+
+
+def show_done(exercise: Exercise, file: Path, root: Path) -> Path:
+    """Draw the done tasks of an unfinished file, say which come next, and return their page.
+
+    Raises BotschoolError if no task is done that has a picture.
     """
-    root = course_root().resolve()
-    title = f"Exercise {number}. {load_exercise(number, root).title}"
-    folder = root / "results" / f"ex{number:02d}"
-    shown = [
-        f"<figure>{_TAGS[path.suffix].format(quote(path.name), escape(path.name))}"
-        f"<figcaption>{escape(path.name)}</figcaption></figure>"
-        for path in made
-        if path.parent == folder and path.suffix in _TAGS and path.name != PAGE
-    ]
+    undone, shown = unfinished(file), []
+    folder = _folder(exercise, root)
+    done = [task for task in exercise.tasks if task.id not in undone]
+    for drawn in checkpoints(exercise, done, file):
+        id, title, says = drawn.task.id, drawn.task.title, drawn.task.picture.says
+        if not drawn.panels:
+            continue
+        if drawn.state == WRONG:
+            says = f"Not right yet, as `botschool grade {id}` explains. It should be: {says}"
+        print(f"  {'✗' if drawn.state == WRONG else '✓'} {id} {title}")
+        shown.append(Shown(drawn.save(folder), f"**{id} {title}.** {says}"))
+    following = exercise.find(undone[0])
+    draws = next((e for e in exercise.tasks if e.id in undone and e.picture), None)
+    more = f"Task {following.id}, {following.title}, comes next."
+    if draws is not None:
+        more += f" Task {draws.id} adds: {draws.picture.says}"
     if not shown:
-        return None
-    head = f'<meta charset="utf-8"><title>{escape(title)}</title><style>{_STYLE}</style>'
-    text = "\n".join([f"<!doctype html>{head}", f"<h1>{escape(title)}</h1>", *shown, ""])
-    save_bytes(folder / PAGE, text.encode())
-    return folder / PAGE
+        raise BotschoolError(
+            f"{not_done(undone)} in {file.name}, so there is nothing to draw yet. {more}"
+        )
+    print(more)
+    return write_album(
+        exercise, shown, folder, root, f"{more} Then: `botschool show {exercise.number}`"
+    )
+
+
+def show_one(exercise: Exercise, task: Task, file: Path, root: Path) -> Path:
+    """Draw a task's answers, say what one sees, and return the picture. Raises BotschoolError."""
+    exercise.require([task])
+    if task.picture is None:
+        have = ", ".join(each.id for each in exercise.tasks if each.picture)
+        raise BotschoolError(
+            f"Task {task.id} has no picture of its own; these have one: {have}. "
+            f"'botschool show {exercise.number}' shows what the finished exercise makes."
+        )
+    drawn = next(checkpoints(exercise, [task], file))
+    if not drawn.panels:
+        raise BotschoolError(f"Task {task.id} has nothing to draw: {drawn.message}")
+    print(f"Task {task.id}. {task.title}: {drawn.state}. {plain(drawn.message)}".rstrip())
+    if drawn.state == WRONG:
+        print("Orange is your answer, grey what is expected.")
+    print(f"{'Expected' if drawn.state == WRONG else 'You see'}: {task.picture.says}")
+    return drawn.save(_folder(exercise, root))
 
 
 def open_page(page: Path) -> bool:
