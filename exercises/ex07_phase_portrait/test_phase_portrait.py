@@ -165,13 +165,13 @@ def stepped(module, gains, states, strongest):
 
 def river(answer, gains, states, strongest):
     """Arrows, where neither edge is near."""
-    return {"the pendulum without a motor": np.hstack([states, np.asarray(answer) - states])}
+    return {"from each state to the next": np.hstack([states, np.asarray(answer) - states])}
 
 
 everywhere.draws(
-    "The pendulum without a motor, everywhere: rings around hanging, a saddle where it stands.",
+    "The pendulum everywhere, with a motor that pushes it to the middle, where it stands.",
     *PLANE, kind="arrows", of=river,
-    call=(stepped, np.zeros(3), FALLING[np.abs(FALLING[:, 0]) < 2.8], 2),
+    call=(stepped, np.array([0.0, -8.0, -2.0]), FALLING[np.abs(FALLING[:, 0]) < 2.8], 2),
 )  # fmt: skip
 
 

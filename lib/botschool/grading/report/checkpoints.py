@@ -42,7 +42,7 @@ class Drawn:
         """Write the picture and return its path. Raises BotschoolError."""
         content, place = BytesIO(), folder / f"task_{self.task.id.replace('.', '_')}.png"
         title = f"{self.task.id} {self.task.title}: {self.state}"
-        draw(title, self.panels, self.task.picture).savefig(content, dpi=100, format="png")
+        draw(title, self.panels).savefig(content, dpi=100, format="png")
         folder.mkdir(parents=True, exist_ok=True)
         save_bytes(place, content.getvalue())
         return place
@@ -84,10 +84,12 @@ def _drawn(task: Task, picture: Picture, submission: Submission) -> Drawn:
                 what, *given = picture.call
                 own = Same(task, what, lambda rng: [tuple(given)], 1e-9, (), None, {})
                 panels = _panels(next(_calls(own, student)), picture, not wrong)
-            if not any(panel.apart for panel in panels) and (wrong or not picture.call):
-                how = Picture(picture.says) if picture.call else picture
-                panels = _of_checks(wrong or calls, how, not wrong) or panels
-            if wrong and not any(panel.apart for panel in panels):
+            elif not wrong:
+                panels = _of_checks(calls, picture, True)
+            for how in (picture, Picture(picture.says)):
+                if wrong and not (picture.call and how.of) and not _shows(panels):
+                    panels = _of_checks(wrong, how, False) or panels
+            if wrong and not _shows(panels):
                 message = f"{message} {UNSEEN.format(task.id)}".strip()
             return Drawn(task, WRONG if wrong else RIGHT, message, panels[:PANELS])
     except NotDone as error:
@@ -127,7 +129,7 @@ def _of_one(group: list[_Call], picture: Picture, right: bool) -> list[Panel]:
     single = [(a, b) for a, b in pairs if a is not None and b is not None and a.ndim == b.ndim == 0]
     if len(single) > 1 and len(single) == len(pairs) and not picture.of:
         yours, expected = (np.array(column) for column in zip(*single, strict=True))
-        return [Panel(_name(group[0]), yours, expected, "against")]
+        return [Panel(_name(group[0]), yours, expected, Picture("", kind="against"))]
     return next(filter(None, (_panels(call, picture, right) for call in reversed(group))), [])
 
 
@@ -141,8 +143,14 @@ def _panels(call: _Call, picture: Picture, right: bool) -> list[Panel]:
         got = _shown(call.got, call, picture)
     except Exception:  # an answer of another form
         got = None
-    panels = panels_of(_name(call), got, wanted, picture, right, call.check.parts)
+    parts = () if picture.of else call.check.parts
+    panels = panels_of(_name(call), got, wanted, picture, right, parts)
     return [panel for panel in panels if panel.apart] or panels
+
+
+def _shows(panels: list[Panel]) -> bool:
+    """Return whether a difference is seen."""
+    return any(panel.apart for panel in panels)
 
 
 def _shown(answer: Any, call: _Call, picture: Picture) -> Any:

@@ -20,6 +20,8 @@ EXPECTED, WRONG, RIGHT = "#a3adb8", "#d55e00", "#0072b2"
 FEW, CURVES, MANY = 12, 8, 200_000
 """Most numbers that are drawn as bars, most columns as curves, most numbers of an answer."""
 COLUMNS = 3
+SEEN = 1e-6
+"""Least difference, relative to the largest number, that counts."""
 
 
 @dataclass
@@ -31,26 +33,34 @@ class Panel:
     """None if it cannot be drawn; `note` says why."""
     expected: np.ndarray | None
     """None for a right answer."""
-    kind: str = ""
+    picture: Picture
     over: np.ndarray | None = None
+    """The horizontal values of curves."""
     names: list[str] = field(default_factory=list)
+    """Names of bars."""
     note: str = ""
+    kind: str = field(init=False)
 
     def __post_init__(self) -> None:
         shape = self.yours if self.expected is None else self.expected
-        self.kind = self.kind if _suits(self.kind, shape) else chosen(shape)
+        kind = "bars" if self.names else self.picture.kind
+        self.kind = kind if _suits(kind, shape) else chosen(shape)
         if self.yours is not None and self.yours.ndim != shape.ndim and self.kind != "histogram":
             self.note = f"yours has the shape {self.yours.shape}, expected is {shape.shape}"
             self.yours = None
+        elif self.yours is not None and self.yours.shape != shape.shape:
+            self.note = f"yours has {len(self.yours)} rows, expected are {len(shape)}"
 
     @property
     def apart(self) -> float:
-        """Return the largest difference; 0.0 for a right answer, NaN for another shape."""
+        """Return the largest difference; 0.0 if there is none to see, NaN for another shape."""
         if self.expected is None:
             return 0.0
         if self.yours is None or self.yours.shape != self.expected.shape:
             return float("nan")
-        return float(np.nanmax(np.abs(self.yours - self.expected), initial=0.0))
+        largest = np.nanmax(np.abs(self.yours - self.expected), initial=0.0)
+        scale = np.nanmax(np.abs(self.expected), initial=0.0)
+        return float(largest) if largest > SEEN * scale else 0.0
 
 
 def chosen(array: np.ndarray) -> str:
@@ -91,14 +101,14 @@ def panels_of(
         along = over if over is not None and len(over) == len(value) else None
         note = "" if mine is not None else "yours cannot be drawn"
         both = (mine, None) if right and mine is not None else (mine, value)
-        made.append(Panel(name or title, *both, picture.kind, along, note=note))
+        made.append(Panel(name or title, *both, picture, along, note=note))
     if single:
         ours = np.array([wanted[name] for name in single])
         mine = np.array([got.get(name, np.array(np.nan)) for name in single], dtype=object)
         whole = np.array([each if np.ndim(each) == 0 else np.nan for each in mine], dtype=float)
         both = (whole, None) if right else (whole, ours)
         if len(single) > 1:
-            made.append(Panel(title, *both, "bars", names=single))
+            made.append(Panel(title, *both, picture, names=single))
     return made
 
 
@@ -131,12 +141,12 @@ def numbers(value: Any) -> np.ndarray | None:
     return np.where(np.abs(array) < 1e30, array, np.nan)
 
 
-def draw(title: str, panels: list[Panel], picture: Picture) -> Figure:
+def draw(title: str, panels: list[Panel]) -> Figure:
     """Draw the panels: what is expected grey, a wrong answer orange over it, a right one blue."""
     from matplotlib.figure import Figure
 
-    cells = [cell for panel in panels for cell in _cells(panel, picture)]
-    tables = any(len(_cells(panel, picture)) > 1 for panel in panels)
+    cells = [cell for panel in panels for cell in _cells(panel)]
+    tables = any(len(_cells(panel)) > 1 for panel in panels)
     columns = 3 if tables else min(COLUMNS, len(cells))
     rows = -(-len(cells) // columns)
     figure = Figure(figsize=(4.3 * max(columns, 1.3), 3.6 * rows + 0.7), layout="constrained")
@@ -156,28 +166,24 @@ def draw(title: str, panels: list[Panel], picture: Picture) -> Figure:
     return figure
 
 
-def _cells(panel: Panel, picture: Picture) -> list[tuple[str, Callable[[Axes], None]]]:
+def _cells(panel: Panel) -> list[tuple[str, Callable[[Axes], None]]]:
     """Return the titles and drawers of a panel: three of a wrong table or image, else one."""
     note = panel.note or (f"differs by up to {panel.apart:.3g}" if panel.apart > 0 else "")
     title = f"{panel.title}\n{note}" if note else panel.title
     if panel.kind not in ("heat", "image"):
-        return [(title, partial(_overlaid, panel=panel, picture=picture))]
+        return [(title, partial(_overlaid, panel=panel))]
     tables = {title: panel.yours}
     if panel.expected is not None:
         tables = {f"yours: {title}": panel.yours, "expected": panel.expected}
         if panel.yours is not None and panel.yours.shape == panel.expected.shape:
             tables["yours minus expected"] = panel.yours - panel.expected
-    shared = [t for t in (panel.yours, panel.expected) if t is not None]
     return [
-        (
-            name,
-            lambda axes, name=name, table=table: _table(axes, name, table, shared, panel, picture),
-        )
+        (name, partial(_table, name=name, table=table, panel=panel))
         for name, table in tables.items()
     ]
 
 
-def _table(axes: Axes, name: str, table: np.ndarray | None, panel: Panel, picture: Picture) -> None:
+def _table(axes: Axes, name: str, table: np.ndarray | None, panel: Panel) -> None:
     shared = [each for each in (panel.yours, panel.expected) if each is not None]
     if table is None:
         axes.axis("off")
@@ -196,10 +202,10 @@ def _table(axes: Axes, name: str, table: np.ndarray | None, panel: Panel, pictur
         low = -high
     image = axes.imshow(
         np.atleast_2d(table), aspect="auto", origin="lower", interpolation="nearest",
-        cmap="RdBu_r" if minus else "viridis", vmin=low, vmax=high, extent=picture.extent,
+        cmap="RdBu_r" if minus else "viridis", vmin=low, vmax=high, extent=panel.picture.extent,
     )  # fmt: skip
     axes.figure.colorbar(image, ax=axes)
-    axes.set(xlabel=picture.x, ylabel=picture.y)
+    axes.set(xlabel=panel.picture.x, ylabel=panel.picture.y)
 
 
 def _flat(table: np.ndarray, panel: Panel) -> np.ndarray:
@@ -209,12 +215,12 @@ def _flat(table: np.ndarray, panel: Panel) -> np.ndarray:
         if panel.expected is not None and panel.yours is not None and not np.isnan(panel.apart):
             apart = np.abs(panel.yours - panel.expected)
             at = int(np.nanargmax(apart.reshape(len(apart), -1).max(axis=1)))
-            panel = Panel(panel.title, panel.yours[at], panel.expected[at], "heat")
+            panel = Panel("", panel.yours[at], panel.expected[at], panel.picture)
         table = table[at]
     return table
 
 
-def _overlaid(axes: Axes, panel: Panel, picture: Picture) -> None:
+def _overlaid(axes: Axes, panel: Panel) -> None:
     drawer = _DRAWERS[panel.kind]
     layers = [(panel.expected, EXPECTED, True), (panel.yours, WRONG, False)]
     if panel.expected is None:
@@ -222,12 +228,12 @@ def _overlaid(axes: Axes, panel: Panel, picture: Picture) -> None:
     for array, colour, below in layers:
         if array is not None:
             drawer(axes, array, colour, below, panel)
-    axes.set(xlabel=axes.get_xlabel() or picture.x, ylabel=picture.y)
+    axes.set(xlabel=axes.get_xlabel() or panel.picture.x, ylabel=panel.picture.y)
     axes.spines[["top", "right"]].set_visible(False)
     axes.grid(alpha=0.25)
     axes.set_axisbelow(True)
-    if picture.extent and panel.kind != "curves":
-        left, right, bottom, top = picture.extent
+    if panel.picture.extent and panel.kind != "curves":
+        left, right, bottom, top = panel.picture.extent
         axes.set(xlim=(left, right), ylim=(bottom, top))
 
 
@@ -247,7 +253,7 @@ def _bars(axes: Axes, array: np.ndarray, colour: str, below: bool, panel: Panel)
     both = panel.expected is not None
     shift = (-0.2 if below else 0.2) if both else 0.0
     axes.bar(np.arange(len(array)) + shift, array, 0.4 if both else 0.7, color=colour)
-    if panel.names:
+    if panel.names and below == both:
         axes.set_xticks(range(len(panel.names)), panel.names, rotation=20, fontsize=8)
     axes.axhline(0, color="black", lw=0.6)
 
