@@ -21,6 +21,11 @@ def seed_of(rng) -> int:
 
 # ------------------------------------------------------------------- 1.1
 description = exercise.task("1.1", "What an agent sees and does")
+description.draws(
+    "Each bar is the lowest or highest value of one of the six numbers that Acrobot observes.",
+    "observed number", "value", kind="bars", call=("describe", "Acrobot-v1"),
+    of=lambda answer, *_: {side: answer["observation"][side] for side in ("low", "high")},
+)  # fmt: skip
 
 
 @same(description, 3, "describe", 1e-6)
@@ -63,6 +68,11 @@ def time_limit(rng):
 
 # ------------------------------------------------------------------- 1.2
 episode = exercise.task("1.2", "A random episode")
+episode.draws(
+    "The four numbers that a random agent observes until the pole falls: the last states run away.",
+    "step", "observation", kind="curves", call=("random_episode", "CartPole-v1", 3, 1000),
+    of=lambda answer, *_: answer["observations"],
+)  # fmt: skip
 
 
 def recorded(answer, *_):
@@ -124,6 +134,25 @@ cartpole = exercise.task(
 )
 
 
+def all_over(module, name, observations, *more):
+    """{0}(observation), all over a plane"""
+    return [[float(getattr(module, name)(each, *more)) for each in row] for row in observations]
+
+
+def plane(across, upwards, *columns):
+    """Observations, (rows, columns, 4); columns: of these, where the two numbers of a place go."""
+    observed = np.zeros((len(upwards), len(across), 4))
+    observed[..., columns] = np.stack(np.meshgrid(across, upwards), axis=-1)
+    return observed
+
+
+cartpole.draws(
+    "An episode goes on in the dark rectangle only: within 2.4 m and 12 degrees.",
+    "cart's position (m)", "pole's angle (rad)", kind="heat", extent=(-3, 3, -0.3, 0.3),
+    call=(all_over, "fallen", plane(np.linspace(-3, 3, 41), np.linspace(-0.3, 0.3, 31), 0, 2)),
+)  # fmt: skip
+
+
 def truth(answer, *_):
     """True or False, which may be 1 or 0."""
     expect(np.ndim(answer) == 0 and answer in (0, 1), "True or False is needed.")
@@ -179,6 +208,15 @@ def swings(rng, *torques):
         yield seen, np.float32([torque])
 
 
+ANGLES, SPEEDS = np.meshgrid(np.linspace(-3.1, 3.1, 41), np.linspace(-8, 8, 31))
+pendulum.draws(
+    "The reward is highest, 0, upright and at rest, and falls with angle and speed to all sides.",
+    "angle (rad), 0 is upright", "speed (rad/s)", kind="heat", extent=(-3.1, 3.1, -8, 8),
+    call=(all_over, "pendulum_reward", np.stack([np.cos(ANGLES), np.sin(ANGLES), SPEEDS], -1),
+          np.ones(1)),
+)  # fmt: skip
+
+
 @same(pendulum, 6, "pendulum_reward", 1e-4)
 def knows_angle_and_speed(rng):
     yield from swings(rng, *np.zeros(24))
@@ -218,6 +256,13 @@ def actions_of(answer, observations):
             alone = "the action must depend on the observation alone, without memory or chance"
             raise Wrong(f"{show(observation)} gives {one}, then {other}, but {alone}.")
     return [int(each) for each in actions]
+
+
+balancing.draws(
+    "A line parts the states in which your rule pushes to the left from those to the right.",
+    "pole's angle (rad)", "pole's speed (rad/s)", kind="heat", extent=(-0.2, 0.2, -2, 2),
+    call=(all_over, "balance", plane(np.linspace(-0.2, 0.2, 41), np.linspace(-2, 2, 31), 2, 3)),
+)  # fmt: skip
 
 
 @same(balancing, 4, acted, view=actions_of)
@@ -262,6 +307,11 @@ def balances(student: Student):
 
 # ------------------------------------------------------------------- 1.6
 comparison = exercise.task("1.6", "Random agents compared", seconds=30, needs=("1.2",))
+comparison.draws(
+    "The mean returns of random agents differ as the rewards do: no two problems share a scale.",
+    "", "mean return", call=("compare", ["CartPole-v1", "Acrobot-v1", "Pendulum-v1"], 3, 1),
+    of=lambda rows, *_: {row["environment"]: row["mean"] for row in rows},
+)  # fmt: skip
 
 
 def column(name):

@@ -33,6 +33,11 @@ def network_of(rng, ninputs, nhiddens, noutputs, many=(), biases=0.6, weights=0.
 
 # ------------------------------------------------------------------- 2.1
 drawing = exercise.task("2.1", "The parameters")
+drawing.draws(
+    "Both layers' weights spread around 0 as a bell, nearly all between -0.3 and 0.3.",
+    "weight", "share", kind="histogram", call=("parameters", 130, 150, 140, 1),
+    of=lambda answer, *_: {name: answer[name] for name in ("W1", "W2")},
+)  # fmt: skip
 
 
 def arrays_of(answer, *_):
@@ -98,6 +103,21 @@ def every_weight_is_drawn_and_the_seed_decides(rng):
 
 # ------------------------------------------------------------------- 2.2
 passing = exercise.task("2.2", "From observation to outputs")
+
+
+def swept(module, network, observations):
+    """forward(network, observation), while one observed number moves,"""
+    return [module.forward(network, each) for each in observations]
+
+
+SWEEP = np.linspace(-4, 4, 81)
+EXAMPLE = network_of(np.random.default_rng(4), 4, 5, 2, weights=1.5)
+passing.draws(
+    "Two outputs while the first observed number moves: soft steps, which tanh keeps within 1.",
+    "first observed number", "output", kind="curves",
+    call=(swept, EXAMPLE, np.stack([SWEEP, *np.zeros((3, 81))], axis=1)),
+    of=lambda answer, *_: {"outputs": answer, "over": SWEEP},
+)  # fmt: skip
 
 
 def passed(rng, **options):
@@ -186,6 +206,14 @@ def acted(module, outputs, space):
     return [[module.act(y, made) for y in outputs], outputs]
 
 
+acting.draws(
+    "The action follows the output along a line, from the lowest torque, -2, to the highest, 2.",
+    "output", "action", kind="curves",
+    call=(acted, np.linspace(-1, 1, 21)[:, None], {"low": [-2.0], "high": [2.0]}),
+    of=lambda answer, outputs, space: {"action": answer[0], "over": np.ravel(outputs)},
+)  # fmt: skip
+
+
 def actions_of(answer, outputs, space):
     actions, after = answer
     return {
@@ -223,6 +251,13 @@ def outputs_are_stretched(rng):
 
 # ------------------------------------------------------------------- 2.5
 episodes = exercise.task("2.5", "An episode", needs=("2.2", "2.4"))
+
+
+episodes.draws(
+    "The torque in each step of an episode: a random network pushes as it observes.",
+    "step", "torque", kind="curves", of=lambda answer, *_: {"actions": answer["actions"]},
+    call=("run_episode", "Pendulum-v1", network_of(np.random.default_rng(1), 3, 5, 1), 1, 200),
+)  # fmt: skip
 
 
 def episode_of(answer, *_):
@@ -296,6 +331,13 @@ def stacked(rng, *sizes, **options):
         yield network_of(rng, *layers, many=(n,), **options), rng.normal(size=(n, layers[0]))
 
 
+batching.draws(
+    "Each row is a network, each column an output: all of them come from one call.",
+    "output", "network", kind="heat",
+    call=("forward_batch", *next(stacked(np.random.default_rng(1), (12, 4, 5, 3)))),
+)  # fmt: skip
+
+
 @same(batching, 7, "forward_batch", 1e-4, off=NO_CUTS)
 def equals_each_network_alone(rng):
     yield from stacked(rng, (3, 4, 5, 2), (7, 4, 5, 2), (50, 3, 10, 1), (300, 6, 5, 3))
@@ -345,6 +387,13 @@ def is_quicker_than_a_loop(student: Student):
 
 # ------------------------------------------------------------------- 2.8
 searching = exercise.task("2.8", "The luckiest network", seconds=40, needs=("2.1", "2.3", "2.6"))
+
+
+searching.draws(
+    "Thirty random networks, the luckiest first: most let the pole fall at once.",
+    "rank", "fitness (steps)", kind="curves", call=("random_search", "CartPole-v1", 30, 5, 1),
+    of=lambda answer, *_: {"fitness": np.sort(answer["fitness"])[::-1]},
+)  # fmt: skip
 
 
 def searched(module, name, nnetworks, seed, layers):

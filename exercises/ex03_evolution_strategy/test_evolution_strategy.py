@@ -46,6 +46,10 @@ def in_common(some: np.ndarray, others: np.ndarray) -> int:
 
 # ------------------------------------------------------------------- 3.1
 initial = exercise.task("3.1", "The initial population")
+initial.draws(
+    "Each row is an individual: its biases, on the left, are 0, its weights small and random.",
+    "parameter", "individual", kind="heat", call=("initial_population", 12, 5, 30, 1),
+)  # fmt: skip
 
 
 def parts_of(answer, popsize, nbiases, nweights, seed):
@@ -114,6 +118,11 @@ def seed_decides(rng):
 
 # ------------------------------------------------------------------- 3.2
 ranking = exercise.task("3.2", "Ranking")
+ranking.draws(
+    "In the order of their ranks, the individuals' fitness only falls.",
+    "rank", "fitness", kind="curves", of=lambda answer, fitness: fitness[np.array(answer, int)],
+    call=("rank", np.round(np.random.default_rng(1).normal(size=30), 1)),
+)  # fmt: skip
 
 
 @same(ranking, 6, "rank")
@@ -147,6 +156,13 @@ def steps(module, population, fitness, mutrate, seed):
     for each in (rng, numpy.random.default_rng(seed)):
         after.append(module.next_population(before.copy(), same.copy(), mutrate, each))
     return [numpy.array(each, dtype=float) for each in after], unchanged
+
+
+following.draws(
+    "The new population: the better half where it was, and a copy near each of its individuals.",
+    "first parameter", "second parameter", kind="points", of=lambda answer, *_: answer[0][0],
+    call=(steps, np.random.default_rng(2).normal(size=(20, 2)), np.arange(20.0), 0.1, 1),
+)  # fmt: skip
 
 
 def noise_of(after, better):
@@ -244,6 +260,20 @@ def evolved(module, name, population, generations, mutrate, seed, least):
 
     run = getattr(module, name)(evaluate, population, generations, mutrate, seed)
     return [run, calls, bool(numpy.array_equal(population, before))]
+
+
+def distances(answer, *_):
+    """The best individual's distance from the goal, generation by generation."""
+    populations = [np.atleast_2d(population) for population, _ in answer[1]]
+    goal = np.linspace(-1, 1, populations[0].shape[1])
+    return {"distance": [((each - goal) ** 2).mean(axis=1).min() for each in populations]}
+
+
+loop.draws(
+    "The best individual comes nearer to the goal, and never loses what it has: the curve falls.",
+    "generation", "distance of the best from the goal", kind="curves", of=distances,
+    call=(evolved, "evolve", np.random.default_rng(1).normal(size=(10, 8)), 60, 0.1, 1, 0.0),
+)  # fmt: skip
 
 
 def run_of(answer, population, least):
@@ -369,6 +399,11 @@ def selects_and_varies(rng):
 
 # ------------------------------------------------------------------- 3.5
 climber = exercise.task("3.5", "A hill climber", needs=("3.4",), refused=TOOL)
+climber.draws(
+    "A climber of two individuals comes nearer in small steps, and never goes back.",
+    "generation", "distance of the best from the goal", kind="curves", of=distances,
+    call=(evolved, "hill_climb", np.random.default_rng(1).normal(size=8), 150, 0.1, 1, 0.0),
+)  # fmt: skip
 
 
 @same(climber, 5, evolved, 0.05, view=lineage)
@@ -414,6 +449,12 @@ def curves(rng, n, least=0.0):
     return histories, [int(seed) for seed in rng.permutation(50)[:n]]
 
 
+RISING = 200 - 150 * np.exp(-np.arange(15) / np.array([[2.0], [4.0], [8.0]]))
+replications.draws(
+    "The mean of three fitness curves, and their deviation, which is largest on the way.",
+    "generation", "fitness", kind="curves", call=(replicated, RISING, [3, 1, 2]),
+    of=lambda answer, *_: {name: answer[name] for name in ("mean", "deviation")},
+)  # fmt: skip
 ASKED = ("the seeds of experiment, in rising order,", "the list of seeds, afterwards,")
 
 

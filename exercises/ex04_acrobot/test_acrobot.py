@@ -63,6 +63,21 @@ of_observations = partial(same, tolerance=1e-4)
 observing = exercise.task("4.1", "What Acrobot observes")
 
 
+def read_all(module, observations):
+    """decode(observation), of an arm that turns around,"""
+    found = [module.decode(each) for each in observations]
+    return {name: [float(each[name]) for each in found] for name in found[0]}
+
+
+TURN = np.linspace(-3, 3, 61)
+TURNING = [np.cos(TURN), np.sin(TURN), np.cos(TURN / 2), np.sin(TURN / 2), TURN, -2 * TURN]
+observing.draws(
+    "The arm turns once around: both angles rise along lines, without a leap.",
+    "true angle of the first link (rad)", "decoded", kind="curves",
+    call=(read_all, np.stack(TURNING, axis=1)), of=lambda answer, *_: answer | {"over": TURN},
+)  # fmt: skip
+
+
 @of_observations(observing, 9, "decode", parts=("angle1", "angle2"))
 def angles(rng):
     yield from observations(rng)
@@ -76,6 +91,21 @@ def speeds(rng):
 
 # ------------------------------------------------------------------- 4.2
 rules = exercise.task("4.2", "What Acrobot does, and what for", needs=("4.1",))
+
+
+def heights(module, observations):
+    """height(observation), all over a plane of two angles,"""
+    return [[float(module.height(each)) for each in row] for row in observations]
+
+
+ANGLES = np.meshgrid(np.linspace(-3.1, 3.1, 31), np.linspace(-3.1, 3.1, 31))
+FOUR = [turn(angle) for angle in ANGLES for turn in (np.cos, np.sin)]
+rules.draws(
+    "The tip is highest, 2, where the first link points up and the second follows it.",
+    "angle of the first link (rad)", "angle of the second (rad)", kind="heat",
+    extent=(-3.1, 3.1, -3.1, 3.1),
+    call=(heights, np.stack([*FOUR, *0 * np.array(ANGLES)], axis=-1)),
+)  # fmt: skip
 
 
 @same(rules, 4, "torque")
@@ -162,6 +192,12 @@ def replicated(module, text, seeds, folder, steps, before):
     return found
 
 
+replications.draws(
+    "The best of each generation in two runs of the tool, as their stat files say.",
+    "generation", "fitness", kind="curves", call=(replicated, PENDULUM, [2, 1], "runs", 60_000, []),
+    of=lambda answer, *_: {name: np.reshape(one["its numbers"], (-1, 6))[:, 3]
+                           for name, one in answer["stat"].items()},
+)  # fmt: skip
 GIVEN = "the list of seeds, afterwards,"
 
 
@@ -214,6 +250,14 @@ def read_saved(module, path, numbers):
     return module.read_stat(path)
 
 
+reading.draws(
+    "Of the six columns, the best so far only rises, the others go up and down.",
+    "steps", "fitness", kind="curves",
+    call=(read_saved, "runs/statS1.npy", table_of(np.random.default_rng(1), 40).ravel()),
+    of=lambda answer, *_: {name: answer[name] for name in COLUMNS[1:]} | {"over": answer["steps"]},
+)  # fmt: skip
+
+
 def files(rng, *generations):
     for count in generations:
         yield f"runs{count}/statS{seed_of(rng)}.npy", table_of(rng, count).ravel()
@@ -246,6 +290,14 @@ def stats_of(rng, *generations):
         table[:, 0] = rng.integers(500, 2000, count).cumsum()
         found.append({name: table[:, column] for column, name in enumerate(COLUMNS)})
     return found
+
+
+BUDGETS = np.linspace(2100, 60_000, 60)
+spread.draws(
+    "The mean of three runs of different lengths at equal steps, and the spread between them.",
+    "steps", "fitness", kind="curves", of=lambda answer, *_: answer | {"over": BUDGETS},
+    call=("curves", stats_of(np.random.default_rng(2), 30, 50, 40), "average", BUDGETS),
+)  # fmt: skip
 
 
 def cases(rng):
@@ -305,6 +357,14 @@ def saved_runs(rng, text, size, count):
         saved |= {f"{kind}S{name}.npy": rng.normal(size=size) for kind in ("best", "bestg")}
         saved[f"statS{name}.npy"] = table_of(rng, 20).ravel()
     return text, saved, seeds, int(rng.integers(20, 60)), int(rng.integers(2**31))
+
+
+worth.draws(
+    "For each seed, what the curve promised, and what both saved robots reach in new episodes.",
+    "", "mean return", call=(compared, *saved_runs(np.random.default_rng(1), PENDULUM, 16, 3)),
+    of=lambda answer, *_: {f"{row['seed']} {name}": row[name] for row in answer[0]
+                           for name in ("promised", "best", "bestg")},
+)  # fmt: skip
 
 
 def of(*keys):

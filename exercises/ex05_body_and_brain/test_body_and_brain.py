@@ -49,7 +49,14 @@ def bodies(rng, spread=0.6):
 
 
 # ------------------------------------------------------------------- 5.1
+GENOTYPE = np.load(genotype_file("bodybrainS1.npy"))
+WALKER = GENOTYPE[-BODY - 2 * OBSERVATIONS : -2 * OBSERVATIONS]
+"""The body of the first pre-evolved walker."""
 size = exercise.task("5.1", "Sizes", packages=(), refused=TOOL)
+size.draws(
+    "Lengths, thicknesses and masses of a walker's eleven segments, the torso first.",
+    "segment", "", kind="bars", call=("sizes", WALKER),
+)  # fmt: skip
 
 
 @decoded(size, 6, "sizes", parts=("lengths",))
@@ -69,6 +76,10 @@ def mass_of_each_segment(rng):
 
 # ------------------------------------------------------------------- 5.2
 turning = exercise.task("5.2", "Angles", packages=(), refused=TOOL)
+turning.draws(
+    "A walker's angles at rest, and how far each of its ten joints turns to both sides.",
+    "joint", "angle (rad)", kind="bars", call=("joints", WALKER),
+)  # fmt: skip
 
 
 @decoded(turning, 6, "joints", parts=("angles",))
@@ -83,6 +94,10 @@ def limits_of_joints(rng):
 
 # ------------------------------------------------------------------- 5.3
 shape = exercise.task("5.3", "The shape at rest", packages=(), needs=("5.1", "5.2"), refused=TOOL)
+shape.draws(
+    "The body of an evolved walker at rest: eleven segments that hang together.",
+    "x (m)", "y (m)", kind="shapes", call=("outline", WALKER),
+)  # fmt: skip
 
 
 def with_angles(parameters, many):
@@ -253,6 +268,14 @@ def varied(rng):
     return walkers
 
 
+crossing.draws(
+    "What each brain (row) earns in each body (column): the diagonal is at home.",
+    "body", "brain", kind="heat", of=lambda answer, *_: answer["its answer"],
+    call=(crossed, EXPERIMENT.format(maxsteps=200, hidden=50, noise=0.01),
+          np.array([np.load(genotype_file(f"bodybrainS{seed}.npy")) for seed in (1, 2, 3)]), 1, 1),
+)  # fmt: skip
+
+
 @same(crossing, 6, crossed, 1e-5)
 def pre_evolved_walkers(rng):
     text, walkers = EXPERIMENT.format(maxsteps=60, hidden=50, noise=0.01), varied(rng)
@@ -271,6 +294,12 @@ def another_experiment(rng):
 
 # ------------------------------------------------------------------- 5.8
 losing = exercise.task("5.8", "What is lost", packages=())
+losing.draws(
+    "How much each brain loses in foreign bodies, and each body with foreign brains.",
+    "walker", "loss", kind="bars",
+    call=("loss", np.array([[300.0, 20, -10], [40, 250, 5], [90, 60, 200]])),
+    of=lambda answer, *_: {name: answer[name] for name in ("brains", "bodies")},
+)  # fmt: skip
 lost = partial(same, tolerance=1e-5, off={"one": "there are at least two walkers"})
 TIES = [[4.0, 4.0, 1.0], [2.0, -1.0, -1.0], [4.0, 0.0, 3.0]]
 """Returns that are the same as the own one in a row, or in a column."""

@@ -88,6 +88,16 @@ def thought(module, brain, observations, memory):
     return {"memories": memories, "actions": actions}
 
 
+BRAIN = weights(np.load(genotype_file("discrimS1.npy")))
+GLANCE = np.exp(-((np.arange(60)[:, None] - 20 - 3 * np.arange(INPUTS)) ** 2) / 40)
+network.draws(
+    "A thing passes by: the memory cells keep what was seen, and the wheels answer later, too.",
+    "step", "", kind="curves", call=(thought, BRAIN, GLANCE, np.zeros((2, UNITS))),
+    of=lambda answer, *_: {"memory cells": np.array(answer["memories"])[:, 0],
+                           "wheels": answer["actions"]},
+)  # fmt: skip
+
+
 @same(network, 8, thought, 1e-4)
 def many_steps(rng):
     brain = {name: values + 0.3 * rng.normal(size=values.shape)
@@ -113,6 +123,13 @@ def recorded(module, brain, start, cylinder, seed, way, maxsteps):
 
     remember = {"keep": module.keep, "forgetful": forgetful, "mixed": mixed}[way]
     return module.episode(brain, start, cylinder, seed, remember, maxsteps)
+
+
+recording.draws(
+    "The way of an evolved robot, from the ring to the disc: it finds the cylinder at (200, 150).",
+    "x (mm)", "y (mm)", kind="path", of=lambda answer, *_: answer["poses"][:, :2],
+    call=(recorded, BRAIN, np.array([100.0, 300.0, 3.0]), np.array([200.0, 150.0]), 1, "keep", 200),
+)  # fmt: skip
 
 
 @same(recording, 7, recorded, 1e-3)
@@ -147,6 +164,12 @@ def lasts_longer_than_500_steps(rng):
 
 # ------------------------------------------------------------------- 6.3
 starts = exercise.task("6.3", "A grid of starts")
+starts.draws(
+    "Four places, four directions in each: no start is favoured.",
+    "x (mm)", "y (mm)", kind="arrows", call=("grid", 2, 4), extent=(0, 400, 0, 400),
+    of=lambda answer, *_: np.column_stack([answer[:, :2], 40 * np.cos(answer[:, 2]),
+                                           40 * np.sin(answer[:, 2])]),
+)  # fmt: skip
 
 
 @same(starts, 8, "grid", 1e-6)
@@ -226,6 +249,13 @@ def of_nothing(rng):
 
 # ------------------------------------------------------------------- 6.5
 groups = exercise.task("6.5", "Families")
+CLOUDS = np.repeat([[0.0, 0.0], [3.0, 3.0], [4.0, 0.5]], 5, axis=0)
+groups.draws(
+    "Robots that behave alike are near each other and have the same number: three families.",
+    "first descriptor", "second descriptor", kind="groups",
+    call=("families", CLOUDS + 0.5 * np.random.default_rng(1).normal(size=CLOUDS.shape), 2.0),
+    of=lambda answer, table, threshold: np.column_stack([table, answer]),
+)  # fmt: skip
 
 
 def table_of(rng, robots, columns, equal=None):
@@ -301,6 +331,13 @@ def remembering(module, since, first, afters):
     }
 
 
+without.draws(
+    "What one robot earns with its memory, without it, and with one that stops after 40 steps.",
+    "", "mean return", call=("memory_test", BRAIN, np.array([[100.0, 300, 3], [300, 300, 4]]),
+    np.array([200.0, 150.0]), 1, 40, 200),
+)  # fmt: skip
+
+
 @same(without, 5, remembering, 1e-6)
 def ways_to_remember(rng):
     """Memories that are easy to recognise, and no multiples of others."""
@@ -322,6 +359,12 @@ def what_memory_is_worth(rng):
 
 # ------------------------------------------------------------------- 6.7
 reacting = exercise.task("6.7", "The same sight, another mind", needs=("6.1",))
+MINDS = np.linspace(-1, 1, 60)[:, None, None] * np.array([[2.0], [1.0]]) * np.ones(UNITS)
+reacting.draws(
+    "The wheels' answers to one and the same sight, while what is remembered changes.",
+    "from one memory to its opposite", "wheels", kind="curves",
+    call=("reactions", BRAIN, np.zeros(INPUTS), MINDS),
+)  # fmt: skip
 
 
 @same(reacting, 6, "reactions", 1e-5)

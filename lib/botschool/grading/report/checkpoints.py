@@ -83,6 +83,7 @@ def _drawn(task: Task, picture: Picture, submission: Submission) -> Drawn:
             if picture.call:
                 what, *given = picture.call
                 own = Same(task, what, lambda rng: [tuple(given)], 1e-9, (), None, {})
+                own.__name__ = ""
                 panels = _panels(next(_calls(own, student)), picture, not wrong)
             elif not wrong:
                 panels = _of_checks(calls, picture, True)

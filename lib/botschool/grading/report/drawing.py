@@ -205,6 +205,9 @@ def _table(axes: Axes, name: str, table: np.ndarray | None, panel: Panel) -> Non
         cmap="RdBu_r" if minus else "viridis", vmin=low, vmax=high, extent=panel.picture.extent,
     )  # fmt: skip
     axes.figure.colorbar(image, ax=axes)
+    if panel.picture.extent is None:
+        axes.xaxis.get_major_locator().set_params(integer=True)
+        axes.yaxis.get_major_locator().set_params(integer=True)
     axes.set(xlabel=panel.picture.x, ylabel=panel.picture.y)
 
 
@@ -255,6 +258,8 @@ def _bars(axes: Axes, array: np.ndarray, colour: str, below: bool, panel: Panel)
     axes.bar(np.arange(len(array)) + shift, array, 0.4 if both else 0.7, color=colour)
     if panel.names and below == both:
         axes.set_xticks(range(len(panel.names)), panel.names, rotation=20, fontsize=8)
+    else:
+        axes.xaxis.get_major_locator().set_params(integer=True)
     axes.axhline(0, color="black", lw=0.6)
 
 
