@@ -23,6 +23,12 @@ SIZES = ((1, 1), (3, 2), (20, 37))
 
 # ------------------------------------------------------------------- 8.1
 sampling = exercise.task("8.1", "Symmetric sampling", refused=OPENAI_ES)
+sampling.draws(
+    "Candidates around the centre, at (1, 2): each has its twin on the other side.",
+    "first parameter", "second parameter", kind="points",
+    call=("candidates_around", np.array([1.0, 2.0]),
+          np.random.default_rng(1).normal(size=(12, 2)), 0.3),
+)  # fmt: skip
 
 
 @same(sampling, 8, "candidates_around")
@@ -39,6 +45,12 @@ def few_candidates(rng):
 
 # ------------------------------------------------------------------- 8.2
 ranks = exercise.task("8.2", "Utilities", refused=OPENAI_ES)
+RETURNS = np.sort(np.random.default_rng(1).normal(size=20) ** 3)
+ranks.draws(
+    "Equal steps from -0.5 to 0.5, however far apart the returns are: an outlier counts no more.",
+    "return", "utility", kind="curves", call=("utilities", RETURNS),
+    of=lambda answer, *_: {"utility": answer, "over": RETURNS},
+)  # fmt: skip
 
 
 @same(ranks, 8, "utilities")
@@ -63,6 +75,14 @@ def equals_in_their_order(rng):
 
 # ------------------------------------------------------------------- 8.3
 direction = exercise.task("8.3", "The gradient", refused=OPENAI_ES)
+SAMPLES = np.random.default_rng(1).normal(size=(40, 2))
+UP = np.argsort(np.argsort(np.stack([SAMPLES, -SAMPLES], axis=1).reshape(-1, 2) @ [2.0, 1.0]))
+direction.draws(
+    "The arrow points to where the utilities rise: twice as far to the right as upwards.",
+    "first parameter", "second parameter", kind="arrows",
+    call=("gradient", SAMPLES, UP / 79 - 0.5), extent=(-0.5, 0.5, -0.5, 0.5),
+    of=lambda answer, *_: np.concatenate([[0.0, 0.0], answer])[None],
+)  # fmt: skip
 
 
 @same(direction, 8, "gradient")
@@ -79,6 +99,12 @@ def many_samples(rng):
 
 # ------------------------------------------------------------------- 8.4
 decay = exercise.task("8.4", "Weight decay", refused=OPENAI_ES)
+decay.draws(
+    "Where no gradient is, weight decay is a slope to 0, the steeper the larger the parameter.",
+    "parameter", "descent", kind="curves", of=lambda answer, *_: {"descent": answer,
+                                                                  "over": np.linspace(-3, 3, 41)},
+    call=("descent", np.zeros(41), np.linspace(-3, 3, 41), 1),
+)  # fmt: skip
 
 
 def slopes(rng, wdecay):
@@ -115,6 +141,22 @@ def step(rng, n, t):
     d = rng.uniform(0.05, 2, n) * rng.choice([-1, 1], n)
     m, v = (np.zeros(n), np.zeros(n)) if t == 1 else (rng.normal(size=n), rng.uniform(0.1, 2, n))
     return rng.normal(size=n), d, m, v, t, round(float(rng.uniform(0.01, 0.2)), 3)
+
+
+def descended(module, centre, slopes, stepsize):
+    """adam, step after step, down a valley that is steep across and flat along it,"""
+    way, m, v = [centre], 0 * centre, 0 * centre
+    for t in range(1, 61):
+        centre, m, v = module.adam(centre, slopes * centre, m, v, t, stepsize)
+        way.append(centre)
+    return way
+
+
+optimiser.draws(
+    "Sixty steps of Adam from the ring: first equally long in both directions, then to the middle.",
+    "first parameter", "second parameter", kind="path",
+    call=(descended, np.array([1.0, 0.6]), np.array([0.1, 10.0]), 0.05),
+)  # fmt: skip
 
 
 @adam(optimiser, 6, "adam")
@@ -168,6 +210,15 @@ def evolved(module, centre, target, generations, seed, options, decimals):
     return found | {key: answer[key] for key in ("history", "centre")}
 
 
+whole.draws(
+    "The mean fitness rises from generation to generation, while the goal moves to and fro.",
+    "generation", "mean fitness", kind="curves",
+    call=(evolved, np.full(6, 3.0), np.zeros(6), 60, 1,
+          {"samplesize": 20, "noiseStdDev": 0.1, "stepsize": 0.1}, 15),
+    of=lambda answer, *_: {"history": answer["history"]},
+)  # fmt: skip
+
+
 def run(rng, n, generations, decimals=15, **options):
     seed = int(rng.integers(100_000))
     return rng.normal(size=n), rng.normal(size=n), generations, seed, options, decimals
@@ -193,6 +244,11 @@ def hyperparameters_have_defaults(rng):
 
 # ------------------------------------------------------------------- 8.7
 curves = exercise.task("8.7", "How stable is it?")
+curves.draws(
+    "The mean of five neighbours runs through the middle of a noisy curve.",
+    "generation", "fitness", kind="curves",
+    call=("smooth", np.sin(np.arange(60) / 9) + 0.4 * np.random.default_rng(1).normal(size=60), 5),
+)  # fmt: skip
 
 
 @same(curves, 4, "smooth")

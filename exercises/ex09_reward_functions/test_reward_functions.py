@@ -81,6 +81,11 @@ def real(robot, seed):
 
 # ------------------------------------------------------------------- 9.1
 first = exercise.task("9.1", "Progress, and being alive")
+HOP = real("Hopper", 1)
+first.draws(
+    "What a hopper that moves at random is paid for each step towards its target, and away from it.",
+    "step", "progress", kind="curves", call=("progress", HOP["distance"], HOP["duration"]),
+)  # fmt: skip
 
 
 @same(first, 6, "progress", 1e-7)
@@ -96,6 +101,11 @@ def tells_the_fallen(rng):
 
 # ------------------------------------------------------------------- 9.2
 costs = exercise.task("9.2", "What effort costs")
+ANT = real("Ant", 1)
+costs.draws(
+    "What electricity costs an ant that moves at random: something in each step.",
+    "step", "electricity", kind="curves", call=("electricity", "Ant", ANT["actions"], ANT["speeds"]),
+)  # fmt: skip
 
 
 @same(costs, 7, "electricity")
@@ -117,6 +127,10 @@ def counts_joints_at_their_limits(rng):
 
 # ------------------------------------------------------------------- 9.3
 standard = exercise.task("9.3", "Version 0", needs=("9.1", "9.2"))
+standard.draws(
+    "Of what version 0 pays, being alive is the largest part, and it is the same in each step.",
+    "step", "reward", kind="curves", call=("components_v0", real("Hopper", 1)),
+)  # fmt: skip
 
 
 def components(answer, trajectory):
@@ -138,6 +152,10 @@ def rebuilds_version_0_of_real_episodes(rng):
 
 # ------------------------------------------------------------------- 9.4
 evolved = exercise.task("9.4", "Version 5", needs=("9.1", "9.2"))
+evolved.draws(
+    "Version 5 pays a walker for progress alone: standing still earns 0.",
+    "step", "reward", kind="curves", call=("reward_v5", real("Walker2D", 1)),
+)  # fmt: skip
 
 
 @same(evolved, 4, "reward_v5", 1e-6)
@@ -185,6 +203,13 @@ def planar(rng, robot, steps):
     one["height"][:7] = 0.7, 0.8, 2.0, 1.0, 1.0, 1.0, 1.0
     one["pitch"][:7] = 0.1, 0.1, 0.1, 0.2, -0.2, 1.0, -1.0
     return one
+
+
+RUNNER = planar(np.random.default_rng(1), "PlanarHopper", 40)
+described.draws(
+    "The three parts of what a planar hopper is paid; it falls now and then, and is alive again.",
+    "step", "reward", kind="curves", call=("planar_v0", RUNNER),
+)  # fmt: skip
 
 
 @same(described, 8, "planar_v0", 1e-7, view=components)

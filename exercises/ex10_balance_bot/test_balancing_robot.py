@@ -35,6 +35,10 @@ def between(rng, low, high, size=None):
 
 
 # ------------------------------------------------------------------ 10.1
+def random_link_masses(answer, *_):
+    return dict(sorted(answer["links"].items()))
+
+
 reading = exercise.task("10.1", "Read the robot", packages=())
 
 
@@ -43,6 +47,13 @@ def robots(rng):
         inside = f'{origin}<mass value="{between(rng, 0.5, 4)}"/>'
         yield f'<robot><link name="a"><inertial>{inside}</inertial></link></robot>'
     yield from (random_robot(rng, nlinks, nlinks % 2 == 0) for nlinks in (3, 4, 5, 6, 8, 7))
+
+
+reading.draws(
+    "What each link of a robot weighs.",
+    "", "mass (kg)", call=("describe", random_robot(np.random.default_rng(1), 6, True)),
+    of=random_link_masses,
+)  # fmt: skip
 
 
 def described(answer, urdf):
@@ -220,6 +231,11 @@ def makes_the_world(rng):
 
 # ------------------------------------------------------------------ 10.5
 driving = exercise.task("10.5", "The motors", packages=())
+driving.draws(
+    "Each action adds to the wheels' speed, which stays below 24.6, and turns back at once.",
+    "step", "speed (rad/s)", kind="curves", of=lambda answer, *_: {"speed": answer["self.speed"]},
+    call=(on_stage, "drive(), actions", 0.1, [0.0, 0.0], 0.0, [1.0] * 30 + [-1.0] * 40),
+)  # fmt: skip
 
 
 def drives(speed, actions):
@@ -245,6 +261,12 @@ def stays_within_limits(rng):
 
 # ------------------------------------------------------------------ 10.6
 stepping = exercise.task("10.6", "Reward, end and step", packages=())
+stepping.draws(
+    "A robot whose wheels stand still falls; its reward falls with its inclination.",
+    "step", "", kind="curves", call=(on_stage, "step(), actions", 0.05, [0.0, 0.0], 0.0, [0.0] * 80),
+    of=lambda answer, *_: {"inclination, angular velocity, wheels": answer["the observation"],
+                           "reward": answer["the reward"]},
+)  # fmt: skip
 
 
 def steps(rng, *courses):

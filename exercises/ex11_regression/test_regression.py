@@ -89,6 +89,15 @@ def activations(rng, what):
     yield what, patterns, *(1000 * e for e in parameters)  # single precision has no e ** 100
 
 
+LINE = np.linspace(-6, 6, 61)[:, None]
+STEPS = np.array([[1.0], [3.0], [-1.0]]), np.array([0.0, 3.0, 2.0])
+network.draws(
+    "Three hidden neurons over one input: soft steps, each at a place and with a slope of its own.",
+    "input", "feature", kind="curves", of=lambda answer, *_: {"": answer, "over": LINE[:, 0]},
+    call=(activated, "features", LINE, *STEPS, np.ones((1, 3)), np.zeros(1)),
+)  # fmt: skip
+
+
 @same(network, 3, activated, 1e-4)
 def features_are_logistic(rng):
     yield from activations(rng, "features")
@@ -101,6 +110,12 @@ def outputs_are_linear(rng):
 
 # ------------------------------------------------------------------- 11.2
 by_hand = exercise.task("11.2", "The gradient by hand", refused=BACKPROPAGATION)
+NETWORK = tuple(drawn(np.random.default_rng(1), *SIZES[3]))
+by_hand.draws(
+    "The slope of the loss for every weight of the network; rows are neurons of the later layer.",
+    "neuron before", "neuron after", kind="heat", call=("gradient_by_hand", *NETWORK),
+    of=lambda answer, *_: {name: answer[name] for name in ("w1", "w2")},
+)  # fmt: skip
 
 
 def networks(rng):
@@ -134,6 +149,11 @@ def hidden_layer_by_hand(rng):
 
 # ------------------------------------------------------------------- 11.3
 by_torch = exercise.task("11.3", "The gradient by torch")
+by_torch.draws(
+    "The same slopes as by hand: torch finds them from the loss alone.",
+    "neuron before", "neuron after", kind="heat", call=("gradient_by_torch", *NETWORK),
+    of=lambda answer, *_: {name: answer[name] for name in ("w1", "w2")},
+)  # fmt: skip
 
 
 @same(by_torch, 7, "gradient_by_torch", SINGLE, off={"single": "torch mixes it with no double"})
@@ -188,6 +208,13 @@ def trained(module, name, settings, inputs, targets, w1, b1, w2, b2):
     losses = [float(loss) for loss in getattr(module, name)(made, *tensors, *settings)]
     after = [layer.detach().numpy() for layer in made.parameters()]
     return {"the list of losses": losses, "the network (w1, b1, w2, b2)": after}
+
+
+loop.draws(
+    "The loss falls from epoch to epoch, quickly at first.",
+    "epoch", "loss", kind="curves", call=(trained, "train", [120, 0.05, 0.5], *NETWORK),
+    of=lambda answer, *_: {"losses": answer["the list of losses"]},
+)  # fmt: skip
 
 
 def descents(rng, epochs, momentum):
@@ -487,6 +514,14 @@ def mapped(module, low, high, n, weights, biases):
     made, values = Features(), {"weight": torch.tensor(weights), "bias": torch.tensor(biases)}
     made.hidden.load_state_dict(values)
     return module.feature_maps(made, low, high, n)
+
+
+maps.draws(
+    "Each hidden neuron parts the plane of the two inputs by a soft line.",
+    "first input", "second input", kind="heat", extent=(-2, 2, -2, 2),
+    call=(mapped, -2.0, 2.0, 40, np.array([[2.0, 1.0], [0.0, -4.0], [-1.0, 1.0]]), np.ones(3)),
+    of=lambda answer, *_: {f"neuron {i + 1}": each for i, each in enumerate(answer)},
+)  # fmt: skip
 
 
 @same(maps, 8, mapped, 1e-4)

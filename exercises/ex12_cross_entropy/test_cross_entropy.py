@@ -24,6 +24,13 @@ def seed_of(rng) -> int:
 
 # ------------------------------------------------------------------- 12.1
 probabilities = exercise.task("12.1", "Softmax")
+RISING = np.linspace(-5, 5, 51)
+probabilities.draws(
+    "As the first score rises, its probability grows from 0 to 1, and the others shrink.",
+    "first score, the others are 0 and 1", "probability", kind="curves",
+    call=("softmax", np.stack([RISING, 0 * RISING, 0 * RISING + 1], axis=1)),
+    of=lambda answer, *_: {"probabilities": answer, "over": RISING},
+)  # fmt: skip
 
 
 @same(probabilities, 6, "softmax")
@@ -51,6 +58,13 @@ def chosen(module, probabilities, seed, times):
     actions = [module.choose(probabilities, rng) for _ in range(times)]
     whole = all(isinstance(each, (int, numpy.integer)) for each in actions)
     return {"whether each action is an int": whole, "the actions": actions}
+
+
+choosing.draws(
+    "How often 2000 darts hit each part: as often as its probability says, 0.1 to 0.4.",
+    "action", "how often", kind="bars", call=(chosen, np.array([0.1, 0.2, 0.3, 0.4]), 1, 2000),
+    of=lambda answer, *_: np.bincount(np.array(answer["the actions"], int).clip(0, 9), minlength=4),
+)  # fmt: skip
 
 
 @same(choosing, 5, chosen)
@@ -124,6 +138,13 @@ def stops_after_maxsteps_or_when_truncated(rng):
     yield from lives(rng, "Pendulum-v1", 1, 3, 3, 60, 210, 250)
 
 
+episodes.draws(
+    "What a random policy saw of the cart-pole, step by step, until the pole fell.",
+    "step", "observation", kind="curves", of=lambda answer, *_: answer["observations"],
+    call=(lived, *next(lives(np.random.default_rng(3), "CartPole-v1", 2, 4, 400))),
+)  # fmt: skip
+
+
 def moved(module, lows, highs, chosen, rewards):
     """run_episode(an environment with limits {0} and {1} that gives the rewards {3}, ...)"""
     from botschool.grading.run.made_up import made_up
@@ -162,6 +183,13 @@ def made(rng, count, actuators=(), levels=0):
         actions = rng.normal(size=size) if actuators else rng.integers(0, 3, size)
         result = float(rng.integers(levels)) if levels else round(float(rng.normal(-300, 80)), 2)
         yield {"observations": seen, "actions": actions, "return": result}
+
+
+selecting.draws(
+    "The steps of the best episodes, one below the other; those of all others are gone.",
+    "observed number", "step", kind="heat", of=lambda answer, *_: answer["observations"],
+    call=("elite", list(made(np.random.default_rng(1), 12)), 70),
+)  # fmt: skip
 
 
 @same(selecting, 3, "elite", parts=("bound",))
@@ -254,6 +282,14 @@ def improved(module, weights, observations, actions, kind, updates):
     return {"what loss gets": types, "the losses": losses, "the network": own, "ln sigma": other}
 
 
+learning.draws(
+    "The loss falls from update to update.",
+    "update", "loss", kind="curves", of=lambda answer, *_: {"losses": answer["the losses"]},
+    call=(improved, np.ones((2, 4)), np.random.default_rng(1).normal(size=(40, 4)),
+          np.arange(40) % 2, "Adam", 60),
+)  # fmt: skip
+
+
 @same(learning, 8, improved, 1e-4, parts=("what loss gets", "the network", "ln sigma"))
 def parameters_after_the_updates(rng):
     kinds, sizes = ("SGD", "SGD", "Adam", "SGD", "Adam"), (3, 2, 3, 1, 3)
@@ -278,6 +314,13 @@ def drawn(module, mean, log_deviation, seed, times):
 
     rng = numpy.random.default_rng(seed)
     return [numpy.array(module.gaussian_action(mean, log_deviation, rng)) for _ in range(times)]
+
+
+continuous.draws(
+    "Two actions, drawn 1000 times: around their means, 2 and -2, one narrow, one wide.",
+    "action", "share", kind="histogram",
+    call=(drawn, np.array([2.0, -2.0]), np.array([-1.0, 0.5]), 1, 1000),
+)  # fmt: skip
 
 
 @same(continuous, 6, drawn)

@@ -41,6 +41,18 @@ def rollout(rng, steps, envs, ends=0.0, done=0.0, gamma=None, gae_lambda=None):
     return rewards, 3 * values, starts, last_values, dones, gamma, gae_lambda
 
 
+PULSE = np.zeros((60, 1))
+PULSE[[20, 50]] = 1.0
+BEGINS = np.zeros((60, 1))
+BEGINS[[0, 30]] = 1.0
+estimating.draws(
+    "Two rewards, in steps 20 and 50: their light falls back in time, and stops where the "
+    "episode of step 30 begins.",
+    "step", "advantage", kind="curves",
+    call=("advantages", PULSE, 0 * PULSE, BEGINS, np.zeros(1), np.zeros(1), 0.97, 0.9),
+)  # fmt: skip
+
+
 @close(estimating, 4, "advantages")
 def one_episode_that_goes_on(rng):
     for steps in (1, 3, 40):
@@ -85,6 +97,32 @@ def batch(rng, n, spread, clip_range, unchanged=0):
     old, change = rng.normal(-1, 0.5, n).round(3), (spread * rng.normal(size=n)).round(3)
     change[:unchanged] = 0.0
     return old + change, old, (5 + 20 * rng.normal(size=n)).round(2), clip_range
+
+
+RATIOS = np.linspace(0.5, 1.5, 51)
+
+
+def clipping(module, ratios):
+    """policy_loss of two steps, while the ratio of one moves,"""
+    import numpy
+
+    found = [
+        [
+            float(module.policy_loss(
+                numpy.array([numpy.log(ratio), 0.0]), numpy.zeros(2), numpy.array([side, -side]),
+                0.2,
+            )["loss"])
+            for side in (1.0, -1.0)
+        ]
+        for ratio in ratios
+    ]  # fmt: skip
+    return {"up: it was better, down: worse": found, "over": ratios}
+
+
+surrogate.draws(
+    "The loss of a step that was better than expected is flat above 1.2, of a worse one below 0.8.",
+    "ratio of new to old probability", "loss", kind="curves", call=(clipping, RATIOS),
+)  # fmt: skip
 
 
 @close(surrogate, 6, "policy_loss", parts=("loss",))
@@ -134,6 +172,13 @@ def with_clipping(rng):
 
 # ------------------------------------------------------------------- 13.4
 undecided = exercise.task("13.4", "Entropy", refused=ENTROPY)
+SCORES = np.linspace(-6, 6, 61)
+undecided.draws(
+    "Two choices: the entropy is highest, ln 2, where both scores are equal.",
+    "first score minus second", "entropy", kind="curves",
+    call=("entropy_of_choices", np.stack([SCORES, 0 * SCORES], axis=1)),
+    of=lambda answer, *_: {"entropy": answer, "over": SCORES},
+)  # fmt: skip
 
 
 @close(undecided, 3, "entropy_of_choices")
@@ -213,6 +258,12 @@ def explains_the_variance(rng):
 
 # ------------------------------------------------------------------- 13.7
 seeing = exercise.task("13.7", "What the hidden neurons respond to")
+SEEN = np.random.default_rng(1).normal(size=(100, 4))
+seeing.draws(
+    "Of eight neurons, each follows some of the four observed numbers, with or against them.",
+    "observed number", "neuron", kind="heat",
+    call=("responses", np.tanh(SEEN @ np.random.default_rng(2).normal(size=(4, 8))), SEEN),
+)  # fmt: skip
 
 
 @close(seeing, 5, "hidden_activations")

@@ -106,6 +106,21 @@ def entries(rng, names, most=30):
     return sorted(found, key=lambda entry: entry[1])
 
 
+def falling(steps):
+    """Entries of a log: the loss falls, the return rises."""
+    return [entry for step in steps for entry in (
+        (NAMES[2], step, float(np.exp(-step / 3000))),
+        (NAMES[0], step, float(200 - 180 * np.exp(-step / 5000))),
+    )]  # fmt: skip
+
+
+reading.draws(
+    "Two indicators of a training, as its log has them: the return rises, the loss falls.",
+    "entry", "value", kind="curves", call=(with_files, *log_of(falling(range(200, 12_000, 400)))),
+    of=lambda answer, *_: {name: one["values"] for name, one in sorted(answer.items())},
+)  # fmt: skip
+
+
 def all_of(indicators, *_):
     return {"the names": sorted(indicators), **indicators}
 
@@ -366,6 +381,18 @@ def inside_variants(rng):
 
 # ------------------------------------------------------------------- 14.8
 equal = exercise.task("14.8", "Evolution and PPO at equal steps")
+RUNS = {
+    name: [
+        {"steps": np.cumsum(np.full(30, length)), "best": top * (1 - np.exp(-np.arange(30) / late))}
+        for length in (40.0, 55.0)
+    ]
+    for name, top, late in (("PPO", 180.0, 6.0), ("ES", 200.0, 12.0))
+}
+equal.draws(
+    "Two runs each of PPO and evolution, at the same steps: one is quicker, the other gets farther.",
+    "place", "best so far", kind="curves", call=("at_equal_steps", RUNS, 40),
+    of=lambda answer, *_: {name: np.transpose(answer[name]) for name in RUNS},
+)  # fmt: skip
 
 
 @close(equal, 3, with_files)

@@ -53,6 +53,11 @@ def some_pair(rng, caught, maxsteps):
 
 # ------------------------------------------------------------------- 15.1
 chasing = exercise.task("15.1", "A chase, recorded")
+chasing.draws(
+    "Predator and prey, from the rings to the discs: the chase ends where they touch.",
+    "x (mm)", "y (mm)", kind="path", of=lambda answer, *_: answer["poses"][..., :2],
+    call=("chase", *some_pair(np.random.default_rng(1), True, 400), 400),
+)  # fmt: skip
 
 
 @same(chasing, 11, "chase", 1e-6)
@@ -80,6 +85,13 @@ def groups(rng, generations, individuals, maxsteps):
     return [predators_of(rng, n) for _ in range(g)], [prey_of(rng, m) for _ in range(h)], maxsteps
 
 
+meeting.draws(
+    "How each predator (row) of three generations fares against each prey (column).",
+    "prey", "predator", kind="heat", of=lambda answer, *_: np.reshape(answer, (6, 6)),
+    call=("tournament", *groups(np.random.default_rng(1), (3, 3), (2, 2), 200)),
+)  # fmt: skip
+
+
 @same(meeting, 8, "tournament", 1e-6)
 def as_many_of_both(rng):
     yield groups(rng, (1, 1), (2, 2), 80)
@@ -99,6 +111,13 @@ averaging = exercise.task("15.3", "The master matrix", refused=TOOL)
 def random_table(rng, *shape):
     """Fitness as in a tournament: many 0, all others spread."""
     return np.where(rng.random(shape) < 0.3, 0.0, np.round(rng.random(shape) ** 0.5, 2))
+
+
+averaging.draws(
+    "A row and a column for each generation: light where the row's side does well.",
+    "generation of the other side", "generation", kind="heat",
+    call=("master", random_table(np.random.default_rng(1), 6, 3, 6, 3)),
+)  # fmt: skip
 
 
 def tables(rng):
@@ -162,10 +181,15 @@ def matrices(rng):
     yield from (with_zeros(rng, count) for count in (4, 7))
 
 
+RACE = steady(np.random.default_rng(1), 9)
 of_matrices = partial(same, off={"one": "there are at least two generations"})
 
 # ------------------------------------------------------------------- 15.4
 times = exercise.task("15.4", "Ancient, present and future competitors")
+times.draws(
+    "Against ancient competitors a generation does better, the later it lives; against future ones not.",
+    "generation", "fitness", kind="curves", call=("profile", RACE),
+)  # fmt: skip
 
 
 @of_matrices(times, 4, "profile", parts=("present",))
@@ -180,6 +204,11 @@ def against_the_past_and_the_future(rng):
 
 # ------------------------------------------------------------------- 15.5
 gaining = exercise.task("15.5", "Progress, or running in circles?", refused=TOOL)
+gaining.draws(
+    "In an arms race each generation gains on the one before, against old competitors and all.",
+    "generation", "gain", kind="curves", call=("progress", RACE),
+    of=lambda answer, *_: {name: answer[name] for name in ("historical", "global")},
+)  # fmt: skip
 
 
 @of_matrices(gaining, 7, "progress", parts=("historical", "global"))
@@ -203,6 +232,10 @@ def in_circles(rng):
 
 # ------------------------------------------------------------------- 15.6
 hiding = exercise.task("15.6", "What contemporary fitness hides")
+hiding.draws(
+    "What is seen hardly changes; what this side gains and the other takes away grows and grows.",
+    "generation", "change of fitness", kind="curves", call=("red_queen", RACE),
+)  # fmt: skip
 
 
 @of_matrices(hiding, 3, "red_queen", parts=("change",))
@@ -290,6 +323,12 @@ def along_the_walls(rng):
         )
     heading = rng.uniform(-3.14, 6.28, (14, 2, 1))  # whoever writes into the poses shows
     return np.concatenate([np.array(ways).swapaxes(0, 1), heading], axis=2)
+
+
+behaviour.draws(
+    "Two robots that drive about, described by numbers: predator on the left, prey on the right.",
+    "robot", "", kind="bars", call=("describe", wandering(np.random.default_rng(1), 150)),
+)  # fmt: skip
 
 
 @of_poses(behaviour, 5, "describe", parts=("speed", "turning", "backwards"))
