@@ -78,7 +78,7 @@ direction = exercise.task("8.3", "The gradient", refused=OPENAI_ES)
 SAMPLES = np.random.default_rng(1).normal(size=(40, 2))
 UP = np.argsort(np.argsort(np.stack([SAMPLES, -SAMPLES], axis=1).reshape(-1, 2) @ [2.0, 1.0]))
 direction.draws(
-    "The arrow points to where the utilities rise: twice as far to the right as upwards.",
+    "The arrow points to where the utilities rise: to the right, and a little upwards.",
     "first parameter", "second parameter", kind="arrows",
     call=("gradient", SAMPLES, UP / 79 - 0.5), extent=(-0.5, 0.5, -0.5, 0.5),
     of=lambda answer, *_: np.concatenate([[0.0, 0.0], answer])[None],

@@ -83,7 +83,7 @@ def real(robot, seed):
 first = exercise.task("9.1", "Progress, and being alive")
 HOP = real("Hopper", 1)
 first.draws(
-    "What a hopper that moves at random is paid for each step towards its target, and away from it.",
+    "What a hopper that moves at random is paid for its way, until it falls.",
     "step", "progress", kind="curves", call=("progress", HOP["distance"], HOP["duration"]),
 )  # fmt: skip
 
@@ -104,7 +104,8 @@ costs = exercise.task("9.2", "What effort costs")
 ANT = real("Ant", 1)
 costs.draws(
     "What electricity costs an ant that moves at random: something in each step.",
-    "step", "electricity", kind="curves", call=("electricity", "Ant", ANT["actions"], ANT["speeds"]),
+    "step", "electricity", kind="curves",
+    call=("electricity", "Ant", ANT["actions"], ANT["speeds"]),
 )  # fmt: skip
 
 
@@ -128,7 +129,7 @@ def counts_joints_at_their_limits(rng):
 # ------------------------------------------------------------------- 9.3
 standard = exercise.task("9.3", "Version 0", needs=("9.1", "9.2"))
 standard.draws(
-    "Of what version 0 pays, being alive is the largest part, and it is the same in each step.",
+    "What version 0 pays: the bonus for being alive stays the same, until the hopper falls.",
     "step", "reward", kind="curves", call=("components_v0", real("Hopper", 1)),
 )  # fmt: skip
 

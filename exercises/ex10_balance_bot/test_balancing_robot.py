@@ -263,7 +263,8 @@ def stays_within_limits(rng):
 stepping = exercise.task("10.6", "Reward, end and step", packages=())
 stepping.draws(
     "A robot whose wheels stand still falls; its reward falls with its inclination.",
-    "step", "", kind="curves", call=(on_stage, "step(), actions", 0.05, [0.0, 0.0], 0.0, [0.0] * 80),
+    "step", "", kind="curves",
+    call=(on_stage, "step(), actions", 0.05, [0.0, 0.0], 0.0, [0.0] * 80),
     of=lambda answer, *_: {"inclination, angular velocity, wheels": answer["the observation"],
                            "reward": answer["the reward"]},
 )  # fmt: skip

@@ -116,7 +116,7 @@ def clipping(module, ratios):
         ]
         for ratio in ratios
     ]  # fmt: skip
-    return {"up: it was better, down: worse": found, "over": ratios}
+    return {"loss": found, "over": ratios}
 
 
 surrogate.draws(

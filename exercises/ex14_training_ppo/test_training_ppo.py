@@ -389,7 +389,7 @@ RUNS = {
     for name, top, late in (("PPO", 180.0, 6.0), ("ES", 200.0, 12.0))
 }
 equal.draws(
-    "Two runs each of PPO and evolution, at the same steps: one is quicker, the other gets farther.",
+    "Two runs each of PPO and evolution, at the same steps: one is quicker at first.",
     "place", "best so far", kind="curves", call=("at_equal_steps", RUNS, 40),
     of=lambda answer, *_: {name: np.transpose(answer[name]) for name in RUNS},
 )  # fmt: skip

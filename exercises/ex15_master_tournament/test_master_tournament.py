@@ -187,7 +187,7 @@ of_matrices = partial(same, off={"one": "there are at least two generations"})
 # ------------------------------------------------------------------- 15.4
 times = exercise.task("15.4", "Ancient, present and future competitors")
 times.draws(
-    "Against ancient competitors a generation does better, the later it lives; against future ones not.",
+    "In an arms race, a generation fares best against the ancient, and worst against the future.",
     "generation", "fitness", kind="curves", call=("profile", RACE),
 )  # fmt: skip
 

@@ -71,29 +71,38 @@ class SavedRobot:
         ).fitness
 
     def film(self, file: str | Path, seed: int = 1, episodes: int = 1) -> None:
-        """Film some episodes."""
+        """Film some episodes; where we draw the environment, write their replay beside the film."""
         from botschool.render.canvas import draw_offscreen
+        from botschool.render.panel import lively
+        from botschool.render.replay import write_replay
         from botschool.render.scenes import scene_of
         from botschool.render.video import write_video
 
         draw_offscreen()
         scene = scene_of(self._problem)
         fps = scene.fps if scene else self._problem.fps
-        write_video(Path(file), self._frames(scene, seed, episodes), fps)
+        write_video(Path(file), lively(self._seen(scene, seed, episodes), fps), fps)
         print(f"film: {file}")
+        if scene:
+            page, spec = Path(file).with_suffix(".html"), self._policy.spec
+            plays = [self._play(seed, episode) for episode in range(episodes)]
+            neurons = spec.inputs, spec.outputs * spec.nbins
+            about = "your robot, with its neurons"
+            write_replay(page, self.environment, about, plays, fps, neurons, scene)
+            print(f"replay: {page}")
 
-    def _frames(self, scene, seed: int, episodes: int):
-        from botschool.render.panel import with_caption
+    def _play(self, seed: int, episode: int, render: bool = False):
+        robot, maxsteps = (self._genotype, self._normalisation), self._policy.config.maxsteps
+        return self._problem.play(self._policy, *robot, seed, episode, maxsteps, render=render)
+
+    def _seen(self, scene, seed: int, episodes: int):
         from botschool.render.scenes import with_frames
 
-        robot, maxsteps = (self._genotype, self._normalisation), self._policy.config.maxsteps
         for episode in range(episodes):
-            play = self._problem.play(
-                self._policy, *robot, seed, episode, maxsteps, render=scene is None
-            )
+            play = self._play(seed, episode, render=scene is None)
             for transition in with_frames(self._problem, play):
                 frame = scene.draw_transition(transition) if scene else transition.frame
-                yield with_caption(frame, episode + 1, transition)
+                yield frame, episode + 1, transition
 
 
 def controller_of(robot: Robot, parameters: np.ndarray):

@@ -10,20 +10,23 @@ from botschool.course.evaluation import Robot
 
 
 def film(file: str | Path, environment: str, parameters: np.ndarray, seed: int = 1) -> None:
-    """Film one episode of a `Robot` in a native environment."""
+    """Film one episode of a `Robot` in a native environment, and write its replay beside it."""
     from botschool.render.canvas import draw_offscreen
-    from botschool.render.panel import with_caption
+    from botschool.render.panel import lively
+    from botschool.render.replay import write_replay
     from botschool.render.scenes import make_scene
     from botschool.render.video import write_video
 
     draw_offscreen()
-    scene = make_scene(environment)
-    frames = (
-        with_caption(scene.draw_transition(transition), 1, transition)
-        for transition in Robot(environment).play(parameters, seed)
-    )
-    write_video(Path(file), frames, scene.fps)
+    scene, robot = make_scene(environment), Robot(environment)
+    seen = ((scene.draw_transition(step), 1, step) for step in robot.play(parameters, seed))
+    write_video(Path(file), lively(seen, scene.fps), scene.fps)
     print(f"film: {file}")
+    neurons = robot.policy.spec.inputs, robot.policy.spec.outputs
+    play, about = robot.play(parameters, seed), "your robot, with its neurons"
+    page = Path(file).with_suffix(".html")
+    write_replay(page, environment, about, [play], scene.fps, neurons, scene)
+    print(f"replay: {page}")
 
 
 def film_agent(
@@ -32,13 +35,15 @@ def film_agent(
     """Film episodes in any Gymnasium environment; act(observation) returns the action."""
     from botschool.problems.gym import make_env
     from botschool.render.canvas import draw_offscreen
+    from botschool.render.panel import lively
     from botschool.render.video import write_video
 
     draw_offscreen()
     env = make_env(environment, render_mode="rgb_array")
     try:
-        frames = _frames(env, act, episodes, seed, maxsteps)
-        write_video(Path(file), frames, env.metadata.get("render_fps") or 30)
+        fps = env.metadata.get("render_fps") or 30
+        seen = _frames(env, act, episodes, seed, maxsteps)
+        write_video(Path(file), lively(seen, fps), fps)
     finally:
         env.close()
     print(f"film: {file}")
@@ -46,7 +51,6 @@ def film_agent(
 
 def _frames(env, act, episodes: int, seed: int, maxsteps: int):
     from botschool.problems.transition import Transition
-    from botschool.render.panel import with_caption
 
     choice = hasattr(env.action_space, "n")
     for episode in range(episodes):
@@ -59,7 +63,7 @@ def _frames(env, act, episodes: int, seed: int, maxsteps: int):
             transition = Transition(
                 step, float(reward), total, observation, np.atleast_1d(action), np.zeros(0)
             )
-            yield with_caption(env.render(), episode + 1, transition)
+            yield env.render(), episode + 1, transition
             observation = following
             if terminated or truncated:
                 break

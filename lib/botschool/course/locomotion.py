@@ -109,13 +109,14 @@ class Runner:
 
     def film(self, file: str | Path, genotype: np.ndarray, seed: int, maxsteps: int = 1000) -> None:
         """Film one episode in real time."""
-        from botschool.render.panel import with_caption
+        from botschool.render.panel import lively
         from botschool.render.video import write_video
 
         scene = self._scene()
         seen = islice(self.play(genotype, seed, maxsteps), 0, None, FILM_STEPS)
-        frames = (with_caption(scene.draw_transition(step), 1, step) for step in seen)
-        write_video(Path(file), frames, scene.fps / FILM_STEPS)
+        pictures = ((scene.draw_transition(step), 1, step) for step in seen)
+        fps = scene.fps / FILM_STEPS
+        write_video(Path(file), lively(pictures, fps), fps)
         print(f"film: {file}")
 
     def replay(

@@ -156,15 +156,16 @@ def film_balance(file: str | Path, env, act, seeds: list[int], every: int = 4) -
 
     env: made with render_mode="rgb_array". act(observation) returns the action.
     """
+    from botschool.render.panel import lively
     from botschool.render.video import write_video
 
-    write_video(Path(file), _pictures(env, act, seeds, every), env.metadata["render_fps"] / every)
+    fps = env.metadata["render_fps"] / every
+    write_video(Path(file), lively(_pictures(env, act, seeds, every), fps), fps)
     print(f"film: {file}")
 
 
 def _pictures(env, act, seeds: list[int], every: int):
     from botschool.problems.transition import Transition
-    from botschool.render.panel import with_caption
 
     for number, seed in enumerate(seeds, 1):
         observation, _ = env.reset(seed=seed)
@@ -175,4 +176,4 @@ def _pictures(env, act, seeds: list[int], every: int):
             step, total, ended = step + 1, total + reward, terminated or truncated
             if step % every == 0 or ended:
                 transition = Transition(step, reward, total, observation, action, np.zeros(0))
-                yield with_caption(env.render(), number, transition)
+                yield env.render(), number, transition

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,6 +22,8 @@ POSITIVE = (213, 94, 0)
 NEGATIVE = (0, 114, 178)
 """Blue and orange: colour-blind readers can distinguish them, too."""
 
+STILL = 2.0
+"""Seconds in which nothing moves before a film leaves pictures out."""
 _MARGIN = 12
 _LABEL = 22
 _SCALE_BAR = 62
@@ -100,6 +102,26 @@ def with_caption(frame: np.ndarray, episode: int, transition: Transition) -> np.
     for column, text in zip((0.0, 0.22, 0.42, 0.68), texts, strict=True):
         write_text(strip, text, (8 + column * (width - 8), (CAPTION_HEIGHT - size) // 2 + 2), size)
     return np.vstack([frame, to_frame(strip)])
+
+
+def lively(seen: Iterable[tuple[np.ndarray, int, Transition]], fps: float) -> Iterator[np.ndarray]:
+    """Yield pictures with captions, without those in which nothing has moved for a while.
+
+    seen: pictures, and the number of the episode and the transition of each. After STILL seconds
+    pictures are left out until something moves.
+    """
+    before, episode, still = None, 0, 0
+    for picture, number, step in seen:
+        same = before is not None and number == episode and not _moves(before, picture)
+        before, episode, still = picture.copy(), number, still + 1 if same else 0
+        if still <= STILL * fps:
+            yield with_caption(picture, number, step)
+
+
+def _moves(before: np.ndarray, picture: np.ndarray) -> bool:
+    """Return whether a pixel differs visibly, of each fourth row and column."""
+    one, other = (each[::4, ::4].astype(np.int16) for each in (before, picture))
+    return bool((np.abs(one - other) > 8).any())
 
 
 def with_title(frame: np.ndarray, title: str) -> np.ndarray:

@@ -193,6 +193,8 @@ def _table(axes: Axes, name: str, table: np.ndarray | None, panel: Panel) -> Non
         axes.imshow(np.clip(np.abs(table) / most, 0, 1))
         axes.axis("off")
         return
+    from matplotlib.ticker import MaxNLocator
+
     table = _flat(table, panel)
     minus = name.endswith("minus expected")
     low = min(np.nanmin(each, initial=np.inf) for each in shared)
@@ -206,8 +208,8 @@ def _table(axes: Axes, name: str, table: np.ndarray | None, panel: Panel) -> Non
     )  # fmt: skip
     axes.figure.colorbar(image, ax=axes)
     if panel.picture.extent is None:
-        axes.xaxis.get_major_locator().set_params(integer=True)
-        axes.yaxis.get_major_locator().set_params(integer=True)
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_locator(MaxNLocator(integer=True))
     axes.set(xlabel=panel.picture.x, ylabel=panel.picture.y)
 
 
@@ -256,10 +258,10 @@ def _bars(axes: Axes, array: np.ndarray, colour: str, below: bool, panel: Panel)
     both = panel.expected is not None
     shift = (-0.2 if below else 0.2) if both else 0.0
     axes.bar(np.arange(len(array)) + shift, array, 0.4 if both else 0.7, color=colour)
-    if panel.names and below == both:
+    if panel.names:
         axes.set_xticks(range(len(panel.names)), panel.names, rotation=20, fontsize=8)
     else:
-        axes.xaxis.get_major_locator().set_params(integer=True)
+        axes.set_xticks(range(len(array)))
     axes.axhline(0, color="black", lw=0.6)
 
 
