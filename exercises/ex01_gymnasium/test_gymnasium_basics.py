@@ -12,6 +12,16 @@ import numpy as np
 from botschool.grading import Exercise, Student, Wrong, expect, same, show
 
 exercise = Exercise(1, "Gymnasium", file="gymnasium_basics.py")
+exercise.captions = {
+    "random_agents.png": (
+        "Sixty episodes of a random agent in each of five problems. In which does it *ever* do "
+        "better than usual? Where it never does, it has nothing to learn from."
+    ),
+    "balance.mp4": (
+        "A rule that was written by hand keeps the pole up. Watch the cart: what does the rule not "
+        "look at?"
+    ),
+}
 CLASSIC = "gymnasium.envs.classic_control"
 
 

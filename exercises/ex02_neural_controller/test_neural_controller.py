@@ -12,6 +12,16 @@ from botschool.grading import Exercise, Student, expect, expect_array, expect_fi
 
 CLASSIC = "gymnasium.envs.classic_control"
 exercise = Exercise(2, "A neural controller", file="neural_controller.py", imports=(CLASSIC,))
+exercise.captions = {
+    "random_networks.png": (
+        "Two hundred random networks in each problem. Most are useless; look for the few on the "
+        "right, which nobody has thought about."
+    ),
+    "luckiest.mp4": (
+        "The luckiest of the 200, found without any learning. Watch how it follows the pole, "
+        "always a little late."
+    ),
+}
 CONTINUOUS = {"MountainCarContinuous-v0": (2, 5, 1), "Pendulum-v1": (3, 5, 1)}
 LAYERS = {"CartPole-v1": (4, 5, 2), "Acrobot-v1": (6, 5, 3)} | CONTINUOUS
 """Inputs, hidden neurons and outputs in each environment."""

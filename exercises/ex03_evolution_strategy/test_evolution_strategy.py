@@ -23,6 +23,20 @@ from botschool.course import Robot
 from botschool.grading import Exercise, Student, expect, expect_array, expect_fields, same
 
 exercise = Exercise(3, "Evolution strategy", file="evolution_strategy.py")
+exercise.captions = {
+    "curves.png": (
+        "Three runs of evolution on Pendulum. Where the band is wide, some have found the trick, "
+        "and others have not."
+    ),
+    "pendulum.mp4": (
+        "Evolved from random numbers. The motor is too weak to lift the pendulum: watch how it "
+        "swings *away* from its goal first, to gather speed."
+    ),
+    "cartpole.mp4": (
+        "The same strategy, another problem. Watch the ten neurons: which of them change before "
+        "the cart turns?"
+    ),
+}
 TOOL = ("botschool.evolution.algorithms.sss:SSS.tell",)
 
 

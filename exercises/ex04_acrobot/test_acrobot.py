@@ -17,6 +17,16 @@ exercise = Exercise(
     file="acrobot.py",
     imports=("botschool.course", "botschool.evolution.run"),
 )
+exercise.captions = {
+    "curves.png": (
+        "Three runs of 20 million steps. Each mark of the horizontal axis is ten times the one "
+        "before: most is learnt early."
+    ),
+    "acrobot.mp4": (
+        "Two links and one weak motor between them. Count the swings until the tip is above the "
+        "line."
+    ),
+}
 COLUMNS = (
     "steps",
     "best fitness",

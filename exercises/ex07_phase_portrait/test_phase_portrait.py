@@ -17,6 +17,16 @@ from botschool.grading import Exercise, Student, Wrong, expect, expect_array, sa
 
 PENDULUM = "gymnasium.envs.classic_control.pendulum"
 exercise = Exercise(7, "Phase portrait", file="phase_portrait.py", imports=(PENDULUM,))
+exercise.captions = {
+    "portraits.png": (
+        "Each picture shows the whole behaviour: grey arrows lead from every state to the next. "
+        "Evolution turns one river into another, whose water runs to the middle, where the "
+        "pendulum stands."
+    ),
+    "pendulum.mp4": (
+        "The same robot as in the last picture. Find its swing-up among the orange arrows."
+    ),
+}
 
 
 def seed_of(rng) -> int:

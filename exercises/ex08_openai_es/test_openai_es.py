@@ -18,6 +18,16 @@ from botschool.grading import Exercise, Student, expect, expect_array, same
 from botschool.grading.declare.libraries import OPENAI_ES
 
 exercise = Exercise(8, "OpenAI-ES", file="openai_es.py")
+exercise.captions = {
+    "stability.png": (
+        "Nine runs with rash settings, coloured by how far each of them falls back. Dashed lines "
+        "mark the largest fall."
+    ),
+    "pendulum.mp4": (
+        "Evolved by the strategy that was written here. Watch the torque, the output neuron: when "
+        "does it let go?"
+    ),
+}
 SIZES = ((1, 1), (3, 2), (20, 37))
 """Of samples and parameters."""
 

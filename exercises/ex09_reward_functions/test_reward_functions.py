@@ -19,6 +19,20 @@ exercise = Exercise(
     file="reward_functions.py",
     imports=("botschool.course.locomotion", "botschool.evolution.run"),
 )
+exercise.captions = {
+    "gaits.png": (
+        "Two rewards, two robots: one is paid for standing as well, the other for its way alone. "
+        "Compare how far they come and what they earn it with."
+    ),
+    "hopper_v0.mp4": (
+        "Paid for every step in which it stands. It found the easiest way to be rich: it is a "
+        "statue. Drag the slider to the end."
+    ),
+    "hopper_v5.mp4": (
+        "Paid for its way alone, with the same body. Watch the foot: how short is it on the "
+        "ground?"
+    ),
+}
 ROBOTS = {"Hopper": 3, "HalfCheetah": 6, "Ant": 8, "Walker2D": 6, "Humanoid": 17}
 """Joints."""
 PLANAR = {"PlanarHopper": (3, 1), "PlanarWalker2D": (6, 2), "PlanarHalfCheetah": (6, 2)}

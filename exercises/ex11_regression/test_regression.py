@@ -21,6 +21,16 @@ from botschool.grading.declare.libraries import BACKPROPAGATION
 exercise = Exercise(
     11, "Back-propagation", file="regression.py", imports=("torch", "torch._dynamo"), extras=("rl",)
 )
+exercise.captions = {
+    "features.png": (
+        "On the left what a network answers over its two inputs, with a black line where it "
+        "changes its mind; then what each hidden neuron adds. How few soft lines make a disc?"
+    ),
+    "losses.png": (
+        "Three ways to train on the same data. Which costs less: many small steps, or inputs of "
+        "equal size?"
+    ),
+}
 SIZES = ((1, 1, 1, 1), (4, 2, 2, 1), (7, 3, 5, 2), (30, 4, 9, 3), (5, 3, 4, 1))
 """Of patterns, inputs, hidden neurons, outputs."""
 NAMES = ("w1", "b1", "w2", "b2")

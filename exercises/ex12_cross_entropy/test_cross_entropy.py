@@ -15,6 +15,13 @@ from botschool.grading.declare.libraries import CROSS_ENTROPY, GAUSSIAN_DENSITY,
 exercise = Exercise(
     12, "Cross-entropy", file="cross_entropy.py", imports=("torch", "torch._dynamo"), extras=("rl",)
 )
+exercise.captions = {
+    "learning.png": (
+        "Each dot is an episode, the elite in colour. Look how the elite of one iteration becomes "
+        "the ground on which the next one stands. Below: what each policy does, and where."
+    ),
+    "pendulum.mp4": "Three episodes of the pendulum after learning from its own best attempts.",
+}
 SINGLE = 1e-5  # where the submission computes in single precision
 
 

@@ -23,6 +23,20 @@ from botschool.grading.declare.libraries import (
 )
 
 exercise = Exercise(13, "Inside PPO", file="inside_ppo.py", extras=("rl",))
+exercise.captions = {
+    "cartpole.mp4": (
+        "A policy that was trained by a loop written here. It never learnt physics: it learnt what "
+        "was better than expected."
+    ),
+    "own_training.png": (
+        "Ten trainings by this loop, beside ten by the engine's own. Only the seeds differ: look "
+        "at all before you judge."
+    ),
+    "hidden_layer.png": (
+        "What 64 neurons respond to, before and after the training. Look for the stripes: they "
+        "follow the pole's angle and speed."
+    ),
+}
 close = partial(same, tolerance=1e-6)
 
 # ------------------------------------------------------------------- 13.1

@@ -18,6 +18,16 @@ exercise = Exercise(
     imports=("botschool.rl.training", "tensorboard.backend.event_processing.event_accumulator"),
     extras=("rl",),
 )
+exercise.captions = {
+    "success.png": (
+        "How the trainings ended, variation by variation, and evolution beside PPO at equal steps. "
+        "Which differences are larger than the spread of their seeds?"
+    ),
+    "indicators.png": (
+        "What every training has logged. Which curve tells early that a training fails?"
+    ),
+    "*.mp4": "The best of all trainings of one problem.",
+}
 close = partial(same, tolerance=1e-6)
 SHORT = {"n_steps": 16, "batch_size": 64, "n_epochs": 2, "normalize": False}
 """Hyperparameters of trainings that take a fraction of a second."""

@@ -13,6 +13,24 @@ from botschool.course.coevolution import play
 from botschool.grading import Exercise, same
 
 exercise = Exercise(15, "The master tournament", file="master_tournament.py")
+exercise.captions = {
+    "chases.html": (
+        "A predator and its prey meet at three times of their arms race. Watch who tacks and who "
+        "drives backwards: both have learnt it from each other."
+    ),
+    "chases.png": (
+        "Nine chases from above, early to late predators against early to late prey. A cross marks "
+        "where the prey was caught, a disc where it escaped."
+    ),
+    "tournament.png": (
+        "Each generation against all generations of the other side. In an arms race the colours "
+        "change from corner to corner."
+    ),
+    "red_queen.png": (
+        "Black is what one sees while they evolve: hardly anything. Underneath, in colour, both "
+        "sides gain all the time, each against the other."
+    ),
+}
 PARAMETERS, UNITS, INPUTS = 4977, 25, 24
 TOOL = ("botschool.analysis.tournament",)
 """What the tool's own tournament has for tasks 15.3, 15.5 and 15.7."""

@@ -56,6 +56,8 @@ class TaskResult:
     """Finds the cause and returns the whole message; takes seconds."""
     compared: bool = False
     """Whether checks of the task compare with our solution, so that `explain` shows their calls."""
+    pictured: bool = False
+    """Whether the task has a picture, so that `show` draws its answers."""
     hung: bool = False
     """Whether a call did not return in time."""
     printed: str = ""
@@ -110,6 +112,7 @@ def _grade_task(
     tried: bool,
 ) -> TaskResult:
     result = TaskResult(task.id, task.title, 0, task.max_points, "")
+    result.pictured = task.picture is not None
     failed: list[Failure] = []
     cheap: list[Callable[[Student], None]] = []
     student, call, shown = None, "", ""

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from botschool.grading.declare.checks import Wrong
-from botschool.grading.declare.exercise import Exercise, Task, cannot_be_graded
+from botschool.grading.declare.exercise import Check, Exercise, Task, cannot_be_graded
 from botschool.grading.declare.picture import Picture
 from botschool.grading.declare.same import Same
 from botschool.grading.judge.submission import Submission, opened
@@ -75,24 +75,27 @@ def checkpoints(exercise: Exercise, tasks: list[Task], file: Path) -> Iterator[D
 def _drawn(task: Task, picture: Picture, submission: Submission) -> Drawn:
     try:
         with closing(submission.begun(task)) as student:
-            checks = [check for _, _, check in task.checks if isinstance(check, Same)]
-            calls = [call for check in checks for call in _calls(check, student)]
+            checks = [check for _, _, check in task.checks]
+            same = [check for check in checks if isinstance(check, Same)]
+            calls = [call for check in same for call in _calls(check, student)]
             wrong = [call for call in calls if not call.right]
-            message = next((call.message for call in wrong if call.message), "")
+            failed = "" if wrong else _failed(checks, student)
+            right = not wrong and not failed
+            message = failed or next((call.message for call in wrong if call.message), "")
             panels: list[Panel] = []
             if picture.call:
                 what, *given = picture.call
                 own = Same(task, what, lambda rng: [tuple(given)], 1e-9, (), None, {})
                 own.__name__ = ""
-                panels = _panels(next(_calls(own, student)), picture, not wrong)
+                panels = _panels(next(_calls(own, student)), picture, right)
             elif not wrong:
-                panels = _of_checks(calls, picture, True)
+                panels = _of_checks(calls, picture, right)
             for how in (picture, Picture(picture.says)):
                 if wrong and not (picture.call and how.of) and not _shows(panels):
                     panels = _of_checks(wrong, how, False) or panels
-            if wrong and not _shows(panels):
+            if not right and not _shows(panels):
                 message = f"{message} {UNSEEN.format(task.id)}".strip()
-            return Drawn(task, WRONG if wrong else RIGHT, message, panels[:PANELS])
+            return Drawn(task, RIGHT if right else WRONG, message, panels[:PANELS])
     except NotDone as error:
         return Drawn(task, OPEN, str(error))
     except Wrong as error:
@@ -115,6 +118,19 @@ def _calls(check: Same, student: Student) -> Iterator[_Call]:
         except Wrong as error:
             call.message = str(error)
         yield call
+
+
+def _failed(checks: list[Check], student: Student) -> str:
+    """Return why the first check fails that compares nothing, such as one of a training."""
+    for check in checks:
+        if not isinstance(check, Same):
+            try:
+                check(student)
+            except NotDone:
+                raise
+            except Wrong as error:
+                return str(error)
+    return ""
 
 
 def _of_checks(calls: list[_Call], picture: Picture, right: bool) -> list[Panel]:

@@ -68,7 +68,8 @@ def chosen(array: np.ndarray) -> str:
     if array.ndim == 1:
         return "bars" if array.size <= FEW else "curves"
     if array.ndim == 2:
-        return "path" if array.shape[1] == 2 else "heat"
+        long = array.shape[1] <= CURVES and len(array) >= 3 * array.shape[1]
+        return "path" if array.shape[1] == 2 else "curves" if long else "heat"
     return "shapes" if array.ndim == 3 and array.shape[2] == 2 else "heat"
 
 

@@ -91,8 +91,10 @@ class Screen:
             )
             return
         task = missing[0]
-        shows = task.compared and not task.message.startswith("not done yet")
-        calls = f"All its calls: botschool explain {task.id}   " if shows else ""
+        done = not task.message.startswith("not done yet")
+        calls = f"All its calls: botschool explain {task.id}   " if task.compared and done else ""
+        if task.pictured and done:
+            calls += f"A picture: botschool show {task.id}   "
         self.console.print(
             f"Next: task {task.id}. After a change: botschool grade {task.id}   {calls}"
             f"A hint: botschool hint {task.id}",
