@@ -467,7 +467,7 @@ def test_show_opens_what_was_made(course, tmp_path):
 
 def test_answers_after_full_marks(course, tmp_path, monkeypatch):
     copy = tmp_path / "copy"
-    release(course, copy)
+    release(course, copy, with_answers=False)
     file = copy / "exercises" / FOLDER / FILE
     monkeypatch.setenv("BOTSCHOOL_COURSE", str(copy))
 

@@ -198,12 +198,14 @@ def release(
     ],
     exercises: Exercises = "all",
     answers: Annotated[
-        bool,
+        bool | None,
         typer.Option(
-            "--answers",
-            help="Allow `show N --answers`, which shows the answers to students with full marks.",
+            "--answers/--no-answers",
+            help="Whether students with full marks see our answers to the questions; an existing "
+            "copy stays as it is.",
+            show_default="--answers",
         ),
-    ] = False,
+    ] = None,
     wheel: Annotated[
         list[Path] | None,
         typer.Option(

@@ -20,13 +20,11 @@ def course_command(folder: Path, exercises: str) -> None:
     print(f"Begin with: cd {quote(str(folder))}; botschool start {first}")
 
 
-def release_command(folder: Path, exercises: str, answers: bool, wheels: list[Path]) -> None:
+def release_command(folder: Path, exercises: str, answers: bool | None, wheels: list[Path]) -> None:
     """Make the students' copy of the repository, or update it."""
     root = material() if material().name == MATERIAL else course_root()
     with contextlib.suppress(BotschoolError):
         root = course_root()
-    if answers and not (root / "solutions").is_dir():
-        raise BotschoolError("Only the repository has the answers: run release there.")
     for wheel in wheels:
         if not wheel.is_file() or wheel.suffix != ".whl":
             raise BotschoolError(f"{wheel} is not a wheel: name a file botschool-....whl.")
@@ -37,7 +35,7 @@ def _copy(
     root: Path,
     folder: Path,
     exercises: str,
-    answers: bool = False,
+    answers: bool | None = None,
     compiled: bool = True,
     wheels: Sequence[Path] = (),
 ) -> None:

@@ -71,7 +71,7 @@ def release(
     root: Path,
     target: Path,
     numbers: set[int] | None = None,
-    with_answers: bool = False,
+    with_answers: bool | None = None,
     trusted: bool = True,
     compiled: bool = True,
     wheels: Sequence[Path] = (),
@@ -81,7 +81,8 @@ def release(
 
     root: the repository, or the material of an installed package.
     numbers: the exercises; None for all.
-    with_answers: whether to pack the solutions' texts, which students see after full marks.
+    with_answers: whether to pack the answers to the questions, which students see after full marks;
+    None for yes in a new copy, and in another one if it has some.
     trusted: whether the user may run the copy's graders at its place.
     compiled: whether the copy gets botschool's source and compiles it; otherwise it uses the
     installed botschool, or installs one of the wheels.
@@ -97,17 +98,17 @@ def release(
     for number in sorted(numbers or ()):
         folder_of(number, root)
     numbers = set(exercise_numbers(root) if numbers is None else numbers)
-    answered = numbers if with_answers else set()
     for name in manifest:
         if found := re.match(r"exercises/ex(\d\d)_", name):
             numbers = numbers | {int(found[1])}
-            answered = answered | ({int(found[1])} if name.endswith(f"/{PACKED}") else set())
+    if with_answers is None:
+        with_answers = not manifest or any(name.endswith(f"/{PACKED}") for name in manifest)
     with _temporary(target) as made:
         _build(root, made, numbers, compiled)
         for wheel in wheels:
             (made / WHEELS).mkdir(exist_ok=True)
             shutil.copy(wheel, made / WHEELS)
-        _add_answers(root, made, answered)
+        _pack_answers(root, made, with_answers)
         pageless = _add_pages(made) if pages else ""
         leaks = find_leaks(root, (path for path in made.rglob("*") if path.is_file()))
         if leaks:
@@ -270,12 +271,15 @@ def _if_there(link: re.Match, folder: Path) -> str:
     return link[0] if (folder / link[3]).exists() else link[2]
 
 
-def _add_answers(root: Path, made: Path, numbers: set[int]) -> None:
+def _pack_answers(root: Path, made: Path, wanted: bool) -> None:
+    """Pack the answers of a repository; take away those of a wheel if they are not wanted."""
     for text in root.glob("solutions/ex[0-9][0-9]_*/README.md"):
         folder = made / "exercises" / text.parent.name
-        if folder.is_dir() and int(text.parent.name[2:4]) in numbers:
+        if folder.is_dir():
             packed = pack_answers(text.read_text(encoding="utf-8"))
             (folder / PACKED).write_text(packed, encoding="ascii", newline="\n")
+    for packed_file in () if wanted else made.glob(f"exercises/*/{PACKED}"):
+        packed_file.unlink()
 
 
 def _add_pages(made: Path) -> str:

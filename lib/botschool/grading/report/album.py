@@ -34,7 +34,7 @@ img, video { display: block; max-width: 100%; max-height: 85vh; margin: 0 auto; 
   border-radius: 8px }
 video { width: 40rem }
 iframe { width: 100%; height: min(46rem, 92vh); border: 1px solid var(--line); border-radius: 8px }
-@media (max-width: 820px) { iframe { height: 54rem } }
+@media (max-width: 820px) { iframe { height: 60rem } }
 table { border-collapse: collapse; display: block; overflow-x: auto }
 td, th { border-bottom: 1px solid var(--line); padding: .25rem .6rem; text-align: left }
 pre { overflow-x: auto } code { font-size: .9em; overflow-wrap: anywhere }
