@@ -376,7 +376,8 @@ def show_command(what: str, submission: str | None, opens: bool) -> int:
         _lead_to_page(number, root, Console(highlight=False, soft_wrap=True), False)
     if page:
         opened = opens and open_page(page)
-        print(f"{'opened' if opened else 'to see it, open'}: {os.path.relpath(page)}")
+        what = "the picture" if task else "all on one page"
+        print(f"{'opened' if opened else what}: {os.path.relpath(page)}")
     return number if whole else 0
 
 

@@ -79,7 +79,7 @@ def _drawn(task: Task, picture: Picture, submission: Submission) -> Drawn:
             same = [check for check in checks if isinstance(check, Same)]
             calls = [call for check in same for call in _calls(check, student)]
             wrong = [call for call in calls if not call.right]
-            failed = "" if wrong else _failed(checks, student)
+            failed = student.changed or ("" if wrong else _failed(checks, student))
             right = not wrong and not failed
             message = failed or next((call.message for call in wrong if call.message), "")
             panels: list[Panel] = []

@@ -145,6 +145,7 @@ def numbers(value: Any) -> np.ndarray | None:
 def draw(title: str, panels: list[Panel]) -> Figure:
     """Draw the panels: what is expected grey, a wrong answer orange over it, a right one blue."""
     from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
 
     cells = [cell for panel in panels for cell in _cells(panel)]
     tables = any(len(_cells(panel)) > 1 for panel in panels)
@@ -159,11 +160,9 @@ def draw(title: str, panels: list[Panel]) -> Figure:
         axes.axis("off")
     figure.suptitle(plain(title), parse_math=False)
     if any(panel.expected is not None for panel in panels):
-        words = (("expected", EXPECTED), ("yours", WRONG))
-        lines = [grid[0].plot([], [], color=colour, lw=4)[0] for _, colour in words]
-        figure.legend(
-            lines, [w for w, _ in words], loc="outside lower center", ncols=2, frameon=False
-        )
+        words = {"expected": EXPECTED, "yours": WRONG}
+        lines = [Line2D([], [], color=colour, lw=4) for colour in words.values()]
+        figure.legend(lines, [*words], loc="outside lower center", ncols=2, frameon=False)
     return figure
 
 

@@ -163,7 +163,7 @@ def show_one(exercise: Exercise, task: Task, file: Path, root: Path) -> Path:
         )
     drawn = next(checkpoints(exercise, [task], file))
     if not drawn.panels:
-        raise BotschoolError(f"Task {task.id} has nothing to draw: {drawn.message}")
+        raise BotschoolError(f"Task {task.id} cannot be drawn: {plain(drawn.message)}")
     print(f"Task {task.id}. {task.title}: {drawn.state}. {plain(drawn.message)}".rstrip())
     if drawn.state == WRONG:
         print("Orange is your answer, grey what is expected.")
