@@ -142,12 +142,18 @@ def _of_checks(calls: list[_Call], picture: Picture, right: bool) -> list[Panel]
 
 
 def _of_one(group: list[_Call], picture: Picture, right: bool) -> list[Panel]:
-    pairs = [(numbers(call.got), numbers(call.wanted)) for call in group]
+    pairs = [(_one(call.got, call), _one(call.wanted, call)) for call in group]
     single = [(a, b) for a, b in pairs if a is not None and b is not None and a.ndim == b.ndim == 0]
     if len(single) > 1 and len(single) == len(pairs) and not picture.of:
         yours, expected = (np.array(column) for column in zip(*single, strict=True))
         return [Panel(_name(group[0]), yours, expected, Picture("", kind="against"))]
     return next(filter(None, (_panels(call, picture, right) for call in reversed(group))), [])
+
+
+def _one(answer: Any, call: _Call) -> np.ndarray | None:
+    """Return an answer, or its part if the check compares only one, as an array."""
+    parts = call.check.parts
+    return numbers(answer.get(parts[0]) if isinstance(answer, dict) and len(parts) == 1 else answer)
 
 
 def _panels(call: _Call, picture: Picture, right: bool) -> list[Panel]:

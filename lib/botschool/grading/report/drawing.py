@@ -45,10 +45,13 @@ class Panel:
         shape = self.yours if self.expected is None else self.expected
         kind = "bars" if self.names else self.picture.kind
         self.kind = kind if _suits(kind, shape) else chosen(shape)
-        if self.yours is not None and self.yours.ndim != shape.ndim and self.kind != "histogram":
+        if self.yours is None or self.yours.shape == shape.shape:
+            return
+        loose = self.kind in ("heat", "histogram")
+        if self.yours.ndim != shape.ndim or (self.yours.shape[1:] != shape.shape[1:] and not loose):
             self.note = f"yours has the shape {self.yours.shape}, expected is {shape.shape}"
             self.yours = None
-        elif self.yours is not None and self.yours.shape != shape.shape:
+        else:
             self.note = f"yours has {len(self.yours)} rows, expected are {len(shape)}"
 
     @property
@@ -74,13 +77,16 @@ def chosen(array: np.ndarray) -> str:
 
 
 def _suits(kind: str, array: np.ndarray) -> bool:
-    sizes = {"arrows": (None, 4), "groups": (None, 3), "points": (None, 2)}
-    if kind in sizes:
-        return array.ndim == 2 and array.shape[1] == sizes[kind][1]
-    most = {"against": 1, "bars": 1, "curves": 2, "heat": 9, "histogram": 9, "image": 3}
-    if kind in most:
-        return 1 <= array.ndim <= most[kind]
-    return kind in ("path", "shapes") and 2 <= array.ndim <= 3 and array.shape[-1] == 2
+    """Return whether a kind of picture can show an array of this shape."""
+    columns = {"arrows": 4, "groups": 3, "points": 2}
+    if kind in columns:
+        return array.ndim == 2 and array.shape[1] == columns[kind]
+    if kind in ("path", "shapes"):
+        return array.shape[-1] == 2 and array.ndim in ((2, 3) if kind == "path" else (3,))
+    if kind == "image":
+        return array.ndim == 3 and array.shape[2] == 3
+    most = {"against": 1, "bars": 1, "curves": 2, "heat": 9, "histogram": 9}
+    return 1 <= array.ndim <= most.get(kind, 0)
 
 
 def panels_of(
@@ -99,6 +105,7 @@ def panels_of(
         if value.ndim == 0 or (value.size < 2 and picture.kind != "groups") or value.size > MANY:
             continue
         mine = got.get(name)
+        mine = None if mine is None or not mine.size else mine
         along = over if over is not None and len(over) == len(value) else None
         note = "" if mine is not None else "yours cannot be drawn"
         both = (mine, None) if right and mine is not None else (mine, value)
@@ -116,7 +123,8 @@ def panels_of(
 def _parts(value: Any, parts: tuple = ()) -> Iterator[tuple[str, np.ndarray]]:
     """Yield the names and arrays of an answer; "" names an answer that is one array."""
     whole = numbers(value)
-    if whole is not None and (whole.ndim or not parts):
+    named = isinstance(value, (list, tuple)) and 0 < len(parts) == len(value)
+    if whole is not None and not named:
         yield "", whole
     elif isinstance(value, dict):
         for key in value:
@@ -320,7 +328,8 @@ def _against(axes: Axes, array: np.ndarray, colour: str, below: bool, panel: Pan
         axes.plot(array, array, color=colour, lw=3)
     else:
         along = array if panel.expected is None else panel.expected
-        axes.plot(along, array, "o", color=colour, ms=5)
+        many = min(len(along), len(array))
+        axes.plot(along[:many], array[:many], "o", color=colour, ms=5)
     axes.set_xlabel("expected")
 
 
