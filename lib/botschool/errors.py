@@ -16,6 +16,18 @@ class BotschoolError(Exception):
         return super().__str__().replace("\r", " ").replace("\n", " ")
 
 
+class BotschoolErrors(BotschoolError):
+    """Several errors at once: a sentence in each line."""
+
+    def __init__(self, sentences: list[str]) -> None:
+        """Store the sentences, at least one."""
+        super().__init__(*sentences)
+
+    def __str__(self) -> str:
+        """Return the sentences."""
+        return "\n".join(str(BotschoolError(each)) for each in self.args)
+
+
 def listed(words: list[str]) -> str:
     """Return "a, b and c"."""
     return " and ".join(filter(None, [", ".join(words[:-1]), words[-1]])) if words else ""

@@ -9,6 +9,7 @@ import os
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -17,9 +18,11 @@ from botschool.errors import BotschoolError
 from botschool.grading.classes.batch import Grades, Job
 from botschool.grading.classes.choice import Wanted
 from botschool.grading.classes.export import read_export
-from botschool.grading.classes.finding import find_submissions, numbered_folders
+from botschool.grading.classes.files import listed
+from botschool.grading.classes.finding import Submission, find_submissions, numbered_folders
 from botschool.grading.classes.outputs import OWN, write_outputs
-from botschool.grading.classes.register import Graded, Register, Settings
+from botschool.grading.classes.people import Person
+from botschool.grading.classes.register import Register, Row, Settings
 from botschool.grading.classes.tables import safe_cell
 from botschool.grading.declare.exercise import Exercise, Number, called
 from botschool.grading.report.feedback import GENERATOR, page
@@ -47,7 +50,7 @@ class Laboratory:
 class Class:
     """The results of an export."""
 
-    rows: list[Graded]
+    rows: list[Row]
     register: Register
     nobodys: list[str]
     """Files that belong to no person."""
@@ -103,11 +106,12 @@ def grade_all(
             if any(number in one.files for one in submissions):
                 exercise = grades.exercise(number)
                 exercise.require(map(exercise.find, asked[number]) if asked[number] else None)
-        register = Register(submissions, settings)
+        folder = settings.policy.path or download.absolute()
+        register = Register(submissions, settings, folder.parent)
         rows = _grade(register, output, asked, grades, workers, start, report)
         tables = {id(each): each for each in (settings.roster, settings.gradebook) if each}
         notes = [*export.notes, *(note for each in tables.values() for note in each.notes)]
-        found = Class(rows, register, export.nobodys, notes)
+        found = Class(rows, register, export.nobodys, notes + register.notes)
         skeletons = {one.number: one.skeleton for one in wanted}
         found.written = write_outputs(output, rows, register, asked, skeletons)
     return found
@@ -121,57 +125,58 @@ def _grade(
     workers: int,
     start: Callable[[int], None],
     report: Callable[[], None],
-) -> list[Graded]:
-    submissions = register.submissions
-    shown = [register.name(index) for index in range(len(submissions))]
-    names = page_names(shown, [f"{one.person.platform} {one.person.folder}" for one in submissions])
+) -> list[Row]:
+    rows = register.rows
+    names = page_names(
+        [row.name for row in rows],
+        [f"{one.person.platform} {one.person.folder}" for one in map(_first, rows)],
+    )
     _check_own(output, names)
     places: dict[Job, list[tuple[int, Number]]] = {}
-    for index, one in enumerate(submissions):
-        for number, file in one.files.items():
-            job = Job(number, file.absolute(), asked[number])
-            places.setdefault(job, []).append((index, number))
+    waiting: list[set[tuple[int, Number]]] = []
+    for row in rows:
+        needed = {}
+        for number in asked:
+            for _, part in row.handed(number):
+                needed[id(part), number] = Job(number, part.files[number].absolute(), asked[number])
+        for key, job in needed.items():
+            places.setdefault(job, []).append(key)
+        waiting.append(set(needed))
     start(len(places))
-    waiting = {index: set(one.files) for index, one in enumerate(submissions)}
     done: dict[tuple[int, Number], dict] = {}
     (output / PAGES).mkdir(parents=True, exist_ok=True)
 
-    def all_of(index: int) -> list[dict[str, Any]]:
-        results = []
+    def write(row: Row, name: str) -> None:
         for number in asked:
-            choice = submissions[index].choices[number]
-            result = done.get((index, number))
-            if result is None:
-                problem = choice.problem
-                result = grades.nothing(number, problem, not choice.unread, asked[number])
-            results.append(register.apply(index, result | {"notes": choice.notes}))
-        return results
-
-    def write(index: int) -> None:
-        if not register.is_missing(index):
-            text = page(shown[index], all_of(index), submissions[index].notes)
-            save_bytes(output / PAGES / names[index], text.encode("utf-8", "replace"))
-
-    for index, one in enumerate(submissions):
-        if not one.files:
-            write(index)
+            nothing = partial(grades.nothing, number, tasks=asked[number])
+            row.results.append(register.result(row, number, done, nothing))
+        register.finish(row)
+        if not row.is_missing:
+            row.page = name
+            text = page(row.name, row.results, [*row.notes, *row.said])
+            save_bytes(output / PAGES / name, text.encode("utf-8", "replace"))
 
     def keep(job: Job, result: dict[str, Any]) -> None:
-        for index, number in places[job]:
-            done[index, number] = result
-            waiting[index].discard(number)
-            if not waiting[index]:
-                write(index)
+        new = set(places[job])
+        done.update(dict.fromkeys(new, result))
+        for row, name, keys in zip(rows, names, waiting, strict=True):
+            if keys & new:
+                keys -= new
+                if not keys:
+                    write(row, name)
         report()
 
+    for row, name, keys in zip(rows, names, waiting, strict=True):
+        if not keys:
+            write(row, name)
     grades.of(places, workers, keep)
-    rows = []
-    for index, one in enumerate(submissions):
-        results = all_of(index)
-        name = "" if register.is_missing(index) else names[index]
-        rows.append(Graded(one, shown[index], name, results, register.total(results)))
     save_bytes(output / TABLE, _table(rows, register).encode("utf-8-sig", "replace"))
     return rows
+
+
+def _first(row: Row) -> Submission:
+    """Return a person's submission, or an empty one, for a key of the page."""
+    return row.parts[0] if row.parts else Submission(Person(row.name, row.about.key))
 
 
 def page_names(folders: list[str], keys: list[str] | None = None) -> list[str]:
@@ -191,7 +196,7 @@ def page_names(folders: list[str], keys: list[str] | None = None) -> list[str]:
     return names
 
 
-def _table(rows: list[Graded], register: Register) -> str:
+def _table(rows: list[Row], register: Register) -> str:
     columns = []
     for result in rows[0].results:
         columns += [called(result["exercise"]).lower(), *(task["id"] for task in result["tasks"])]
@@ -199,31 +204,29 @@ def _table(rows: list[Graded], register: Register) -> str:
     writer = csv.writer(stream, lineterminator="\n")
     people = ["id", "email", "handed in as"] if register.roster else []
     writer.writerow([*_FIRST_COLUMNS, *columns, "feedback", "notes", *people])
-    for index, row in enumerate(rows):
+    for row in rows:
         points = []
         for result in row.results:
             all_of = [result["points"], *(task["points"] for task in result["tasks"])]
             points += all_of if result["graded"] else [""] * len(all_of)
         shown = "" if row.total is None else row.total
         link = safe_cell(f"{PAGES}/{row.page}") if row.page else ""
-        notes = safe_cell(notes_of(row))
-        student = register.students[index]
-        person = row.submission.person
-        about = [student.id, student.mail] if student else ["", ""]
-        about = [*about, "" if register.is_missing(index) else person.student] if people else []
-        cells = [*points, link, notes, *map(safe_cell, about)]
+        about = [row.student.id, row.student.mail] if row.student else ["", ""]
+        named = listed(list(dict.fromkeys(part.student for part in row.parts)))
+        about = [*about, named] if people else []
+        cells = [*points, link, safe_cell(notes_of(row)), *map(safe_cell, about)]
         writer.writerow([safe_cell(row.name), shown, *cells])
     return stream.getvalue()
 
 
-def notes_of(row: Graded) -> str:
+def notes_of(row: Row) -> str:
     """Return everything that a reader must know beside the points."""
     notes = []
     for result in row.results:
         broken = re.match(r"[^.\n]*\.?", result["banner"])[0]
         if said := " ".join(filter(None, [result["problem"], broken, *result["notes"]])):
             notes.append(f"{called(result['exercise'])}: {said}")
-    return " ".join([*notes, *row.submission.notes])
+    return " ".join([*notes, *row.notes, *row.said])
 
 
 def _check_own(output: Path, names: list[str]) -> None:

@@ -13,9 +13,10 @@ from botschool.errors import BotschoolError
 from botschool.grading.classes.collect import PAGES, TABLE, Class, Laboratory, grade_all
 from botschool.grading.classes.exporting import export
 from botschool.grading.classes.files import listed
-from botschool.grading.classes.policy import FILE, Policy, read_policy
+from botschool.grading.classes.policy import FILE, read_policy
 from botschool.grading.classes.register import Settings
 from botschool.grading.classes.roster import read_roster
+from botschool.grading.classes.rules import Policy
 from botschool.grading.classes.statistics import by_task, hardest
 from botschool.grading.declare.exercise import Number, course_root, secret_for_others, selected
 from botschool.grading.report.screen import counting, say_missing
@@ -130,7 +131,7 @@ def _settings(
     beside = download.absolute().parent / FILE
     if settings is None and beside.is_file() and not beside.is_symlink():
         settings = beside
-    policy = read_policy(settings) if settings else Policy()
+    policy = read_policy(settings, collect=True) if settings else Policy()
     roster = roster or policy.roster
     book = read_roster(gradebook) if gradebook else None
     if book and book.kind == "plain":
@@ -172,4 +173,4 @@ def say_class(console: Console, found: Class) -> bool:
         lines.append(f"Where the class stumbled: {shown}.")
     for line in lines:
         console.print(line, markup=False, soft_wrap=True)
-    return not (ungraded or register.missing or register.unknown)
+    return not (ungraded or register.missing or register.unknown or register.doubtful)

@@ -10,9 +10,10 @@ from io import BytesIO
 from typing import Any
 
 from botschool.errors import BotschoolError
+from botschool.grading.classes.identity import Student
 from botschool.grading.classes.people import Person
-from botschool.grading.classes.policy import tidy
-from botschool.grading.classes.roster import Roster, Student
+from botschool.grading.classes.roster import Roster
+from botschool.grading.classes.rules import tidy
 from botschool.grading.classes.tables import safe_cell
 from botschool.grading.declare.checks import plain
 from botschool.grading.declare.exercise import called

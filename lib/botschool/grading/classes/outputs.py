@@ -14,7 +14,8 @@ from botschool.grading.classes.gradebook import (
     moodle_feedback,
     moodle_worksheet,
 )
-from botschool.grading.classes.register import Graded, Register
+from botschool.grading.classes.identity import Student
+from botschool.grading.classes.register import Register, Row, Settings
 from botschool.grading.classes.similar import (
     Program,
     Sheet,
@@ -39,7 +40,7 @@ WORDS = "words.csv"
 
 def write_outputs(
     output: Path,
-    rows: list[Graded],
+    rows: list[Row],
     register: Register,
     asked: dict[Number, tuple[str, ...]],
     skeletons: dict[Number, str],
@@ -51,16 +52,7 @@ def write_outputs(
     made = {"class.html": _statistics(rows, register)}
     if similar := _similar(rows, asked, skeletons):
         made["similar.html"] = similar
-    handed_in = [(row.submission.person, row) for row in rows if row.page]
-    if pages := [(p, row) for p, row in handed_in if p.platform == "moodle"]:
-        folder = output / "feedback"
-        made["moodle-feedback.zip"] = moodle_feedback(
-            [(person, (folder / row.page).read_bytes()) for person, row in pages]
-        )
-    if texts := [(p, row) for p, row in handed_in if p.platform == "canvas"]:
-        made["canvas-feedback.zip"] = canvas_feedback(
-            [(p, feedback_text(row.name, row.results, row.submission.notes)) for p, row in texts]
-        )
+    made |= _feedback(output, rows)
     made |= _gradebook(output, rows, register)
     made |= _words(output, rows, register)
     for name, content in made.items():
@@ -68,24 +60,48 @@ def write_outputs(
     return [output / name for name in made]
 
 
-def _gradebook(output: Path, rows: list[Graded], register: Register) -> dict[str, bytes]:
-    book = register.settings.gradebook
+def _feedback(output: Path, rows: list[Row]) -> dict[str, bytes]:
+    """Return zip files of feedback to upload, one for each download: numbers differ in each."""
+    made = {}
+    parts = [(part.person, row) for row in rows for part in row.parts]
+    for section in dict.fromkeys(person.section for person, _ in parts):
+        name = f"-{Path(section).stem}" if section else ""
+        own = [(person, row) for person, row in parts if person.section == section]
+        if pages := [each for each in own if each[0].platform == "moodle"]:
+            made[f"moodle-feedback{name}.zip"] = moodle_feedback(
+                [(person, (output / "feedback" / row.page).read_bytes()) for person, row in pages]
+            )
+        if texts := [each for each in own if each[0].platform == "canvas"]:
+            made[f"canvas-feedback{name}.zip"] = canvas_feedback(
+                [(p, feedback_text(row.name, row.results, row.notes)) for p, row in texts]
+            )
+    return made
+
+
+def _gradebook(output: Path, rows: list[Row], register: Register) -> dict[str, bytes]:
+    points = {
+        student: (row.total, _comment(row))
+        for student, row in register.book_rows()
+        if row.total is not None
+    }
+    return filled(output, register.settings, points, register.maximum(rows[0].results))
+
+
+def filled(
+    output: Path, settings: Settings, points: dict[Student, tuple[float, str]], maximum: float
+) -> dict[str, bytes]:
+    """Return the platform's table with grades: name of the file -> content."""
+    book = settings.gradebook
     if book is None:
         return {}
-    points, maximum = {}, register.maximum(rows[0].results)
-    for student, row in zip(register.students, rows, strict=True):
-        known = book.find_student(student) if student else None
-        if known and row.total is not None and row.total >= points.get(known, (-1, ""))[0]:
-            points[known] = (row.total, _comment(row))
     if output / f"{book.kind}.csv" == book.table.path:
         raise BotschoolError(f"{book.table.path} would be overwritten: give another copy of it.")
     if book.kind == "moodle":
         return {"moodle.csv": moodle_worksheet(book, points, maximum)}
-    column = register.settings.column
-    return {"canvas.csv": canvas_gradebook(book, points, maximum, column)}
+    return {"canvas.csv": canvas_gradebook(book, points, maximum, settings.column)}
 
 
-def _words(output: Path, rows: list[Graded], register: Register) -> dict[str, bytes]:
+def _words(output: Path, rows: list[Row], register: Register) -> dict[str, bytes]:
     """Return the table of the laboratories' texts, in which the instructor writes points.
 
     A table that has points is never overwritten.
@@ -115,14 +131,14 @@ def has_points(place: Path) -> bool:
     return any(table.get(row, "points") for row in table.rows)
 
 
-def _comment(row: Graded) -> str:
+def _comment(row: Row) -> str:
     """Return the points of each exercise and the notes, in a line for a gradebook."""
     parts = [f"{called(r['exercise'])}: {r['points']} of {r['max_points']}." for r in row.results]
     notes = [note for result in row.results for note in (result["problem"], *result["notes"])]
-    return " ".join(filter(None, [*parts, *notes, *row.submission.notes]))
+    return " ".join(filter(None, [*parts, *notes, *row.notes, *row.said]))
 
 
-def _statistics(rows: list[Graded], register: Register) -> bytes:
+def _statistics(rows: list[Row], register: Register) -> bytes:
     results = [result for row in rows for result in row.results]
     totals = [row.total for row in rows if row.total is not None]
     notes = [f"{sum(bool(row.page) for row in rows)} submissions."]
@@ -138,13 +154,13 @@ def _statistics(rows: list[Graded], register: Register) -> bytes:
 
 
 def _similar(
-    rows: list[Graded], asked: dict[Number, tuple[str, ...]], skeletons: dict[Number, str]
+    rows: list[Row], asked: dict[Number, tuple[str, ...]], skeletons: dict[Number, str]
 ) -> bytes:
     found = {}
     for number in [each for each in asked if isinstance(each, int)]:
         programs, seen = [], set()
         for row in rows:
-            file = row.submission.files.get(number)
+            file = row.files.get(number)
             if file is None or file in seen:  # a group's file is there once for each member
                 continue
             seen.add(file)
@@ -162,13 +178,13 @@ def _similar(
     return page.encode("utf-8", "replace") if found or sheets else b""
 
 
-def _sheets(rows: list[Graded], number: Number) -> list[Sheet]:
+def _sheets(rows: list[Row], number: Number) -> list[Sheet]:
     """Return the sheets of a laboratory; a group's sheet is there once, with all their names."""
     found: dict[Path, Sheet] = {}
     for row in rows:
         for result in row.results:
             if result["exercise"] == number and (told := result.get("sheet")):
-                file = row.submission.files[number]
+                file = row.files[number]
                 names = f"{found[file].student}, {row.name}" if file in found else row.name
                 found[file] = Sheet(names, told["name"], frozenset(told["robots"]))
     return [*found.values()]

@@ -46,6 +46,8 @@ class Person:
     late: bool = False
     """Whether the platform marks the submission as late."""
     submitted: datetime | None = None
+    section: str = ""
+    """The download, of several side by side."""
     problem: str = ""
     """Why nothing can be graded."""
     upload: list[str] = field(default_factory=list)
@@ -68,10 +70,11 @@ class People:
     """Collect people from the entries of a folder; reading their files is left to Person.handed."""
 
     def __init__(self, new_folder: Callable[[], Path]) -> None:
-        self.found: dict[tuple[str, str], Person] = {}
+        self.found: dict[tuple[str, ...], Person] = {}
         self.nobodys: list[str] = []
         self.notes: list[str] = []
         self._new_folder = new_folder
+        self._section = ""
         self._alike: set[str] = set()
         """Names of folders that differ only in capitals, in lower case."""
 
@@ -143,6 +146,7 @@ class People:
 
     def _class(self, place: Path) -> None:
         """Add the people of a section: a folder, or a zip file of a platform."""
+        self._section = place.name
         if place.is_dir():
             self.entries(place, sections=False)
             return
@@ -224,9 +228,9 @@ class People:
     def _person(
         self, key: tuple[str, str], student: str, folder: str, platform: str = ""
     ) -> Person:
-        return self.found.setdefault(
-            key, Person(student, folder, platform, new_folder=self._new_folder)
-        )
+        section = self._section
+        made = Person(student, folder, platform, section=section, new_folder=self._new_folder)
+        return self.found.setdefault((section, *key), made)
 
 
 def is_own(name: str) -> bool:

@@ -1,20 +1,20 @@
-"""Apply an instructor's rules: deadlines, extensions, adjustments, weights.
+"""Read class.yaml, and the tables that it names, with all errors at once.
 
-One file, class.yaml, and the tables that it names hold all rules; each grading applies them anew
-(docs/specification.md, "Collecting submissions").
+docs/specification.md, "A class".
 """
 
 from __future__ import annotations
 
-import math
 import re
-from dataclasses import dataclass, field
-from datetime import date, datetime, time, timedelta
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from datetime import date, datetime, time
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
-from botschool.errors import BotschoolError
-from botschool.grading.classes.roster import Student, words
+from botschool.errors import BotschoolError, BotschoolErrors
+from botschool.grading.classes.identity import read_answers, words
+from botschool.grading.classes.rules import TOTAL, Adjustment, LateRule, Policy
 from botschool.grading.classes.tables import Table, read_table
 from botschool.grading.classes.texts import is_larger
 from botschool.grading.declare.exercise import Number
@@ -25,275 +25,253 @@ _LATE = re.compile(
     re.IGNORECASE,
 )
 FILE = "class.yaml"
-MOST_VALUES = 100_000
-_UNITS = {"hour": timedelta(hours=1), "day": timedelta(days=1), "week": timedelta(weeks=1)}
-_KEYS = ("roster", "due", "late", "extensions", "adjustments", "submitted", "weights")
+MOST_VALUES, MOST_POINTS = 100_000, 1e6
+T = TypeVar("T")
+_KEYS = (
+    "roster", "due", "late", "extensions", "adjustments", "submitted", "groups", "weights", "total",
+    "bonus",
+)  # fmt: skip
 
 
-@dataclass
-class LateRule:
-    """A loss of points, out of a hundred, for each started day (hour, week)."""
+def read_policy(path: Path, collect: bool = False) -> Policy:
+    """Return the settings of a class.yaml and of the tables that it names.
 
-    off: float
-    unit: str
-    most: float = 100.0
-
-    def points(self, by: timedelta) -> float:
-        """Return how many of a hundred points a delay costs."""
-        return min(self.most, self.off * math.ceil(by / _UNITS[self.unit])) if by > _NONE else 0.0
-
-
-_NONE = timedelta()
-
-
-@dataclass
-class Adjustment:
-    """A manual change of a person's points."""
-
-    exercise: Number
-    points: float
-    sets: bool
-    """Whether the number is the points themselves, not a change."""
-    reason: str
-    task: str = ""
-    """The task whose points change; "" for the exercise's."""
-
-
-@dataclass
-class Policy:
-    """A class's settings; keys of people are those of roster.words or student ids."""
-
-    roster: Path | None = None
-    due: dict[Number, datetime] = field(default_factory=dict)
-    late: LateRule | None = None
-    extensions: dict[str, dict[Number, datetime]] = field(default_factory=dict)
-    adjustments: dict[str, list[Adjustment]] = field(default_factory=dict)
-    submitted: dict[str, dict[Number, datetime]] = field(default_factory=dict)
-    """Times of submission from a table; exercise 0 stands for all."""
-    weights: dict[Number, float] = field(default_factory=dict)
-    tables: list[Path] = field(default_factory=list)
-    """Tables of adjustments."""
-
-    def names(self, student: Student | None, shown: str) -> list[str]:
-        """Return the keys under which the settings may name a person."""
-        keys = sorted(student.keys()) if student else []
-        return [*keys, words(student.name if student else shown), shown.casefold()]
-
-    def has_deadline(self, number: Number) -> bool:
-        """Return whether the time of submission of an exercise matters."""
-        return number in self.due or any(number in each for each in self.extensions.values())
-
-    def apply(
-        self, result: dict[str, Any], names: list[str], moment: datetime | None, marked: bool
-    ) -> dict[str, Any]:
-        """Return a result with deadline and adjustments; names: as returned by `names`.
-
-        moment: when it was handed in. marked: whether the platform marks it as late.
-        """
-        number = result["exercise"]
-        points, notes = float(result["points"]), []
-        for name in names:
-            times = self.submitted.get(name, {})
-            moment = times.get(number, times.get(0, moment))
-        due = general = self.due.get(number)
-        for name in names:
-            due = self.extensions.get(name, {}).get(number, due)
-        if moment:
-            moment = moment.replace(second=0, microsecond=0)  # 23:59 lasts a minute
-        if result["graded"] and due and moment and moment > due:
-            off = self.late.points(moment - due) * result["max_points"] / 100 if self.late else 0
-            off = min(points, off)
-            points -= off
-            notes.append(f"Late by {_duration(moment - due)}: {tidy(off)} points off.")
-        elif result["graded"] and due and marked and moment is None:
-            notes.append("The platform marks it late, but not how late.")
-            if due != general:
-                notes[-1] += f" The extension until {due:%Y-%m-%d %H:%M} counts: nothing is off."
-            elif self.late:
-                off = self.late.points(_UNITS[self.late.unit]) * result["max_points"] / 100
-                off = min(points, off)
-                points -= off
-                notes[-1] += f" Counted as one {self.late.unit}: {tidy(off)} points off."
-        for each in (a for name in dict.fromkeys(names) for a in self.adjustments.get(name, ())):
-            if each.exercise == number and (result["graded"] or each.sets):
-                if each.task:
-                    result, change = _with_task(result, each)
-                    points += change
-                    continue
-                points = each.points if each.sets else points + each.points
-                result = result | {"graded": True}
-                what = "Set to" if each.sets else "Adjusted by"
-                sign = "+" if each.points > 0 and not each.sets else ""
-                notes.append(
-                    f"{what} {sign}{tidy(each.points)} points: {each.reason or 'by hand'}."
-                )
-        return result | {"points": tidy(max(0.0, points)), "notes": [*result["notes"], *notes]}
-
-    def weight(self, number: Number) -> float:
-        return self.weights.get(number, 1.0)
-
-
-def _with_task(result: dict[str, Any], by: Adjustment) -> tuple[dict[str, Any], float]:
-    """Return the result with a task's points changed within its limits, and the change."""
-    tasks, change = [dict(task) for task in result["tasks"]], 0.0
-    for task in tasks:
-        if task["id"] == by.task:
-            wanted = by.points if by.sets else task["points"] + by.points
-            points = tidy(min(float(task["max_points"]), max(0.0, wanted)))
-            change += points - task["points"]
-            task["points"] = points
-            task["message"] = "" if by.reason in ("", "words") else by.reason
-    return result | {"tasks": tasks, "graded": True}, change
-
-
-def tidy(number: float) -> int | float:
-    """Return a number with at most two decimals; whole if possible."""
-    rounded = round(number, 2)
-    return int(rounded) if rounded == int(rounded) else rounded
-
-
-def _duration(by: timedelta) -> str:
-    hours = by / timedelta(hours=1)
-    if hours < 1:
-        return f"{max(1, round(hours * 60))} minutes"
-    return f"{hours:.1f} hours" if hours < 48 else f"{hours / 24:.1f} days"
-
-
-def read_policy(path: Path) -> Policy:
-    """Return the settings of a class.yaml. Raises BotschoolError, which names the place."""
+    Raises BotschoolErrors, which names all places; collect: only if nothing can be read, and leave
+    the others to Policy.errors.
+    """
     import yaml
 
+    class Loader(yaml.SafeLoader):
+        """Read mappings with the line of each key."""
+
+    Loader.add_constructor("tag:yaml.org,2002:map", lambda loader, node: _Lined(loader, node))
     try:
         text = path.read_text(encoding="utf-8-sig")
-        found = yaml.safe_load(text)
+        found = yaml.load(text, Loader)
     except (OSError, UnicodeError) as error:
         raise BotschoolError(f"{path} cannot be read ({error}).") from None
-    except (yaml.YAMLError, ValueError) as error:
+    except (yaml.YAMLError, ValueError, TypeError, RecursionError) as error:
         mark = getattr(error, "problem_mark", None)
         where = f", line {mark.line + 1}" if mark else ""
         raise BotschoolError(f"{path}{where} is not valid YAML: correct it.") from None
     if is_larger(found, MOST_VALUES):
         raise BotschoolError(f"{path} holds too many values: does an alias (*) repeat them?")
-    found = found or {}
-    if not isinstance(found, dict):
+    found = _Lined() if found is None else found
+    if not isinstance(found, _Lined):
         raise BotschoolError(f"{path} holds no settings: write lines as 'late: 10 per day'.")
-    for key in found:
-        if key not in _KEYS:
-            raise BotschoolError(
-                f"{path}: '{key}' is not a setting: choose from {', '.join(_KEYS)}."
-            )
-    reader = _Reader(path)
-    policy = Policy()
-    for key, value in found.items():
-        setattr(policy, key, getattr(reader, key)(value))
-    policy.tables = reader.tables
+    policy = _Reader(path).read(found)
+    if policy.errors and not collect:
+        raise BotschoolErrors(policy.errors)
     return policy
 
 
+class _Lined(dict):
+    """A mapping of a YAML file that knows the line of each key."""
+
+    def __init__(self, loader: Any = None, node: Any = None) -> None:
+        super().__init__(loader.construct_mapping(node, deep=True) if loader else {})
+        self.lines: dict[Any, int] = {}
+        self.twice: list[Any] = []
+        for key, _ in node.value if node else ():
+            name = loader.construct_object(key, deep=True)
+            self.twice += [name] * (name in self.lines)
+            self.lines[name] = key.start_mark.line + 1
+
+
 class _Reader:
-    """Read the settings one by one."""
+    """Read the settings one by one, and collect what is wrong with them."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self.tables: list[Path] = []
+        self._policy = Policy(path=path)
 
-    def _wrong(self, what: str) -> BotschoolError:
-        return BotschoolError(f"{self._path}: {what}")
+    def read(self, found: _Lined) -> Policy:
+        for key, value in self._items(found, "settings, such as 'late: 10 per day'"):
+            if key not in _KEYS:
+                raise_ = f"'{key}' is not a setting: choose from {', '.join(_KEYS)}."
+                self._policy.errors.append(f"{self._place(found, key)}: {raise_}")
+                continue
+            with self._at(self._place(found, key)):
+                setattr(self._policy, key, getattr(self, key)(value))
+        with self._at(""):
+            self._policy.answers = read_answers(self._path.parent)
+        return self._policy
 
-    def _file(self, value: Any, key: str) -> Path:
+    def _place(self, found: _Lined, key: Any) -> str:
+        return f"{self._path}, line {found.lines[key]}"
+
+    @contextmanager
+    def _at(self, place: str) -> Iterator[None]:
+        """Keep what is wrong within, with its place."""
+        try:
+            yield
+        except BotschoolError as error:
+            self._policy.errors.append(f"{place}: {error}" if place else str(error))
+
+    def _items(self, value: Any, what: str) -> Iterator[tuple[Any, Any]]:
+        """Yield what a setting lists. Raises BotschoolError."""
+        if not isinstance(value, _Lined):
+            raise BotschoolError(f"write {what}.")
+        for key in dict.fromkeys(value.twice):
+            self._policy.errors.append(
+                f"{self._place(value, key)}: '{key}' stands there twice: keep one of them."
+            )
+        yield from value.items()
+
+    def _numbered(self, value: Any, what: str, read: Callable[[Any], T]) -> dict[Number, T]:
+        """Return a value for each exercise."""
+        found = {}
+        for key, each in self._items(value, what):
+            with self._at(self._place(value, key)):
+                number = _number(key)
+                found[number] = read(each)
+                self._policy.places.setdefault(number, self._place(value, key))
+        return found
+
+    def _table(self, value: Any, key: str) -> Iterator[tuple[Table, list[str], str]]:
+        """Yield a table's rows and their places; what is wrong in one of them costs this one."""
         if not isinstance(value, str):
-            raise self._wrong(f"'{key}' is not a file name.")
-        return self._path.parent / value
+            raise BotschoolError(f"'{key}' is not a file name.")
+        table = read_table(self._path.parent / value)
+        for line, row in enumerate(table.rows, 2):
+            yield table, row, f"{table.path}, row {line}"
+
+    def _who(self, table: Table, row: list[str], place: str) -> str:
+        for meaning in ("id", "mail", "user", "name"):
+            if name := table.get(row, meaning).lstrip("'"):
+                return self._key(name, place)
+        raise BotschoolError("names no student (by name, id or email).")
+
+    def _key(self, name: str, place: str) -> str:
+        """Return the key of a person: an id, mail or user name as it is, a name by its words."""
+        name = re.sub(r"(?i)^participant (?=\d+$)", "moodle ", name.strip())
+        is_number = re.fullmatch(r"(?i)(moodle|canvas) \d+", name)
+        key = words(name) if " " in name and not is_number else name.casefold()
+        self._policy.places.setdefault(key, place)
+        return key
 
     def roster(self, value: Any) -> Path:
-        return self._file(value, "roster")
+        if not isinstance(value, str):
+            raise BotschoolError("'roster' is not a file name.")
+        return self._path.parent / value
 
     def due(self, value: Any) -> dict[Number, datetime]:
-        if not isinstance(value, dict):
-            raise self._wrong(
-                "write under 'due' a line for each exercise, as '3: 2026-11-20 23:59'."
-            )
-        return {self._number(key): self._moment(each) for key, each in value.items()}
+        what = "under 'due' a line for each exercise, as '3: 2026-11-20 23:59'"
+        return self._numbered(value, what, _moment)
 
     def late(self, value: Any) -> LateRule:
         found = _LATE.fullmatch(str(value).strip())
         if not found:
-            raise self._wrong(f"'late: {value}' is not a rule: write '10 per day, at most 50'.")
+            raise BotschoolError(f"'late: {value}' is not a rule: write '10 per day, at most 50'.")
         return LateRule(float(found["off"]), found["unit"].lower(), float(found["most"] or 100))
 
     def extensions(self, value: Any) -> dict[str, dict[Number, datetime]]:
-        if not isinstance(value, dict):
-            raise self._wrong("write under 'extensions' a student, and under that '3: 2026-11-25'.")
-        return {_key(str(name)): self.due(dues) for name, dues in value.items()}
+        what = "under 'extensions' a student, and under that '3: 2026-11-25'"
+        found: dict[str, dict[Number, datetime]] = {}
+        for name, dues in self._items(value, what):
+            place = self._place(value, name)
+            with self._at(place):
+                dues = self._numbered(dues, what, _moment)
+                found.setdefault(self._key(str(name), place), {}).update(dues)
+        return found
 
     def weights(self, value: Any) -> dict[Number, float]:
-        try:
-            return {self._number(key): float(each) for key, each in dict(value).items()}
-        except (TypeError, ValueError):
-            raise self._wrong(
-                "write under 'weights' a line for each exercise, as '3: 2'."
-            ) from None
+        what = "under 'weights' a line for each exercise, as '3: 2'"
+        return self._numbered(value, what, lambda each: _positive(each, f"write {what}."))
+
+    def total(self, value: Any) -> float:
+        return _positive(value, f"'total: {value}' is not a number of points: write 'total: 100'.")
+
+    def bonus(self, value: Any) -> bool:
+        if not isinstance(value, bool):
+            raise BotschoolError(f"'bonus: {value}' is neither yes nor no: write 'bonus: yes'.")
+        return value
 
     def adjustments(self, value: Any) -> dict[str, list[Adjustment]]:
         found: dict[str, list[Adjustment]] = {}
         for each in value if isinstance(value, list) else [value]:
-            self.tables.append(self._file(each, "adjustments"))
-            self._adjust(read_table(self.tables[-1]), found)
+            for table, row, place in self._table(each, "adjustments"):
+                if table.path not in self._policy.tables:
+                    self._policy.tables.append(table.path)
+                with self._at(place):
+                    if one := adjustment(table, row):
+                        found.setdefault(self._who(table, row, place), []).append(one)
         return found
-
-    def _adjust(self, table: Table, found: dict[str, list[Adjustment]]) -> None:
-        for line, row in enumerate(table.rows, 2):
-            if not table.get(row, "points"):
-                continue
-            points = table.get(row, "points").lstrip("'").replace(",", ".")
-            match = re.fullmatch(r"([=+-]?)(\d+(?:\.\d+)?)", points)
-            if not match:
-                raise BotschoolError(
-                    f"{table.path}, row {line}: '{points}' are not points: write +5, -10 or =80."
-                )
-            change = -float(match[2]) if match[1] == "-" else float(match[2])
-            exercise, _, task = table.get(row, "exercise").partition(".")
-            number = self._number(exercise)
-            task = task and f"{number}.{task}"
-            reason = table.get(row, "reason").rstrip(".")
-            one = Adjustment(number, change, match[1] == "=", reason, task)
-            found.setdefault(_named(table, row, line), []).append(one)
 
     def submitted(self, value: Any) -> dict[str, dict[Number, datetime]]:
-        table = read_table(self._file(value, "submitted"))
         found: dict[str, dict[Number, datetime]] = {}
-        for line, row in enumerate(table.rows, 2):
-            if moment := table.get(row, "submitted"):
-                number = table.get(row, "exercise")
-                times = found.setdefault(_named(table, row, line), {})
-                times[self._number(number) if number else 0] = self._moment(moment)
+        for table, row, place in self._table(value, "submitted"):
+            with self._at(place):
+                if moment := table.get(row, "submitted"):
+                    number = table.get(row, "exercise")
+                    times = found.setdefault(self._who(table, row, place), {})
+                    times[_number(number) if number else 0] = _moment(moment)
         return found
 
-    def _number(self, value: Any) -> Number:
-        if lab := re.fullmatch(r"lab(?:oratory)?\s*0?([0-9]{1,2})", str(value).strip().lower()):
-            return f"lab{lab[1]}"
-        if not re.fullmatch(r"[0-9]{1,3}", str(value).strip()):
-            raise self._wrong(
-                f"'{value}' is neither the number of an exercise nor a laboratory such as lab9."
-            )
-        return int(value)
+    def groups(self, value: Any) -> dict[str, list[str]]:
+        found: dict[str, list[str]] = {}
+        for table, row, place in self._table(value, "groups"):
+            with self._at(place):
+                group = table.get(row, "group").lstrip("'")
+                if not group:
+                    raise BotschoolError("names no group: fill in the column 'group'.")
+                found.setdefault(group, []).append(self._who(table, row, place))
+        return found
 
-    def _moment(self, value: Any) -> datetime:
-        if isinstance(value, datetime):
-            moment = value
-        elif isinstance(value, date):
-            moment = datetime.combine(value, time(23, 59, 59))
-        else:
-            try:
-                text = str(value).strip()
-                moment = datetime.fromisoformat(text)
-                if re.fullmatch(r"\d{4}-\d\d-\d\d", text):
-                    moment = datetime.combine(moment, time(23, 59, 59))
-            except ValueError:
-                moment = moodle_moment(text)
-                if moment is None:
-                    raise self._wrong(f"'{value}' is not a time: write 2026-11-20 23:59.") from None
-        return moment if moment.tzinfo is None else moment.astimezone().replace(tzinfo=None)
+
+def adjustment(table: Table, row: list[str]) -> Adjustment | None:
+    """Return what a row of a table of adjustments says; None if it has neither points nor comment.
+
+    Raises BotschoolError.
+    """
+    points = table.get(row, "points").lstrip("'").replace(",", ".")
+    if not points:
+        return None
+    match = re.fullmatch(r"([=+-]?)(\d+(?:\.\d+)?)", points)
+    if not match:
+        raise BotschoolError(f"'{points}' are not points: write +5, -10 or =80.")
+    change = -float(match[2]) if match[1] == "-" else float(match[2])
+    exercise, _, task = table.get(row, "exercise").partition(".")
+    number = TOTAL if exercise.strip().casefold() == TOTAL else _number(exercise)
+    reason = table.get(row, "reason").rstrip(".")
+    return Adjustment(number, change, match[1] == "=", reason, task and f"{number}.{task}")
+
+
+def _positive(value: Any, otherwise: str) -> float:
+    number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    if not number or not 0 <= value <= MOST_POINTS:
+        raise BotschoolError(otherwise)
+    return float(value)
+
+
+def _number(value: Any) -> Number:
+    text = str(value).strip().lower()
+    if lab := re.fullmatch(r"lab(?:oratory)?\s*0?([0-9]{1,2})", text):
+        return f"lab{lab[1]}"
+    if not re.fullmatch(r"[0-9]{1,3}", text):
+        raise BotschoolError(
+            f"'{value}' is neither the number of an exercise nor a laboratory such as lab9."
+        )
+    return int(text)
+
+
+def _moment(value: Any) -> datetime:
+    if isinstance(value, datetime):
+        moment = value
+    elif isinstance(value, date):
+        moment = datetime.combine(value, time(23, 59, 59))
+    else:
+        try:
+            text = str(value).strip()
+            moment = datetime.fromisoformat(text)
+            if re.fullmatch(r"\d{4}-\d\d-\d\d", text):
+                moment = datetime.combine(moment, time(23, 59, 59))
+        except ValueError:
+            found = moodle_moment(text)
+            if found is None:
+                raise BotschoolError(f"'{value}' is not a time: write 2026-11-20 23:59.") from None
+            moment = found
+    return moment if moment.tzinfo is None else moment.astimezone().replace(tzinfo=None)
 
 
 def moodle_moment(text: str) -> datetime | None:
@@ -304,21 +282,3 @@ def moodle_moment(text: str) -> datetime | None:
         except ValueError:
             continue
     return None
-
-
-def _named(table: Table, row: list[str], line: int) -> str:
-    for meaning in ("id", "mail", "user", "name"):
-        if name := table.get(row, meaning).lstrip("'"):
-            return _key(name)
-    raise BotschoolError(f"{table.path}, row {line} names no student (by name, id or email).")
-
-
-def _key(name: str) -> str:
-    """Return the key of a person: an id, mail or user name as it is, a name by its words."""
-    return words(name) if " " in name.strip() else name.strip().casefold()
-
-
-def unknown_names(policy: Policy, known: set[str]) -> list[str]:
-    """Return names in extensions, adjustments and times that belong to nobody."""
-    named = [*policy.extensions, *policy.adjustments, *policy.submitted]
-    return [name for name in dict.fromkeys(named) if name not in known]

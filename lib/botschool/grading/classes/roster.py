@@ -3,53 +3,14 @@
 from __future__ import annotations
 
 import re
-import unicodedata
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from botschool.errors import BotschoolError
+from botschool.grading.classes.identity import Known, Student, letters, words
 from botschool.grading.classes.people import Person
 from botschool.grading.classes.tables import Table, read_table
 from botschool.grading.declare.checks import plain
-
-
-@dataclass(frozen=True)
-class Student:
-    """A row of a roster."""
-
-    name: str
-    id: str = ""
-    mail: str = ""
-    user: str = ""
-    participant: str = ""
-    """Moodle's number."""
-    canvas: str = ""
-    """Canvas's number."""
-    row: int = 0
-    again: tuple[Student, ...] = ()
-    """Further rows of the same student."""
-
-    @property
-    def rows(self) -> list[int]:
-        return [self.row, *(each.row for each in self.again)]
-
-    @property
-    def is_named(self) -> bool:
-        """Return whether the table has a name, for which else a key stands."""
-        return self.name not in (self.user, self.mail, self.id)
-
-    def keys(self) -> set[str]:
-        """Return the words that name only this student, in lower case."""
-        given = (self.id, self.mail, self.user, self.mail.partition("@")[0])
-        own = {key.casefold() for key in given if key}
-        return own.union(*(each.keys() for each in self.again))
-
-    def names(self) -> set[str]:
-        """Return the words of the name, as each row has it."""
-        return {words(each.name) for each in (self, *self.again)}
-
-
-_KEYS, _NUMBERS = ("id", "mail", "user"), ("participant", "canvas")
 
 
 @dataclass
@@ -117,23 +78,11 @@ class Roster:
         """Return the student for Canvas's form lastnamefirst."""
         fitting = []
         for student in self.students:
-            parts = _letters(student.name.replace(",", " ")).split()
+            parts = letters(student.name.replace(",", " ")).split()
             turned = ["".join(parts[at:] + parts[:at]) for at in range(len(parts))]
-            if _letters(name).replace(" ", "") in turned:
+            if letters(name).replace(" ", "") in turned:
                 fitting.append(student)
         return fitting[0] if len(fitting) == 1 else None
-
-
-def _letters(text: str) -> str:
-    """Return the letters and digits of a text in lower case, without accents."""
-    plain = unicodedata.normalize("NFKD", text.casefold())
-    plain = "".join(letter for letter in plain if not unicodedata.combining(letter))
-    return " ".join(re.findall(r"[^\W_]+", plain))
-
-
-def words(name: str) -> str:
-    """Return the words of a name in a fixed order."""
-    return " ".join(sorted(_letters(name).split()))
 
 
 def read_roster(path: Path) -> Roster:
@@ -176,45 +125,12 @@ def read_roster(path: Path) -> Roster:
             f"{path} names no students: it needs a column 'name' (or 'first_name' and "
             f"'last_name'), 'id' or 'email'; its columns are {heads}."
         )
-    students, notes = _merged(students, table)
-    return Roster(table, students, kind, notes)
-
-
-def _merged(students: list[Student], table: Table) -> tuple[list[Student], list[str]]:
-    """Return each student once, with all rows, and a sentence on each who has several.
-
-    Rows are of one student if they have the same number of a platform, or are equal, or have an id,
-    email or user name in common and one name holds the words of the other: tables put the same dash
-    into many cells, so a key alone tells nothing.
-    """
-    found: list[Student] = []
-    places: dict[tuple, list[int]] = {}
-    for one in students:
-        fields = {key: getattr(one, key) for key in (*_KEYS, *_NUMBERS)}
-        keys: list[tuple] = [(key, value.casefold()) for key, value in fields.items() if value]
-        keys.append(("row", *table.rows[one.row]))
-        for kind, at in [(key[0], at) for key in keys for at in places.get(key, [])]:
-            known = found[at]
-            if kind not in _KEYS or any(_alike(one, row) for row in (known, *known.again)):
-                filled = {key: getattr(known, key) or value for key, value in fields.items()}
-                name = known.name if known.is_named or not one.is_named else one.name
-                found[at] = replace(known, name=name, again=(*known.again, one), **filled)
-                break
-        else:
-            at = len(found)
-            found.append(one)
-        for key in keys:
-            places.setdefault(key, []).append(at)
+    known = Known()
+    known.add(students, equal=[tuple(table.rows[each.row]) for each in students])
     notes = [
-        f"{table.path.name} names {plain(each.name)} {len(each.rows)} times (rows "
+        f"{path.name} names {plain(each.name)} {len(each.rows)} times (rows "
         f"{', '.join(str(row + 2) for row in each.rows)}): taken for one student."
-        for each in found
+        for each in known.people
         if each.again
     ]
-    return found, notes
-
-
-def _alike(one: Student, other: Student) -> bool:
-    """Return whether two names may be of one student."""
-    mine, others = set(words(one.name).split()), set(words(other.name).split())
-    return mine <= others or others <= mine or not (one.is_named and other.is_named)
+    return Roster(table, known.people, kind, notes)

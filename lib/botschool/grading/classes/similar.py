@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 from html import escape
 from types import MappingProxyType
 
-from botschool.grading.classes.roster import words
+from botschool.grading.classes.identity import words
 from botschool.grading.classes.statistics import page_without_scripts
 from botschool.grading.classes.wall import Broken, walled
 from botschool.grading.declare.checks import plain

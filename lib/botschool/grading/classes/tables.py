@@ -27,6 +27,7 @@ COLUMNS = {
     "exercise": ("exercise", "assignment"),
     "points": ("points", "adjustment", "change"),
     "reason": ("reason", "comment", "note", "notes"),
+    "group": ("group", "groupname", "team"),
     "submitted": ("submitted", "lastmodifiedsubmission", "submissiontime", "time", "date"),
 }  # fmt: skip
 """Meaning of a column -> letters and digits of its heads in lower case."""

@@ -1,0 +1,283 @@
+"""Recognise people in several tables and downloads, and ask the instructor where it is doubtful.
+
+docs/specification.md, "A term".
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+import unicodedata
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from botschool.errors import BotschoolError
+from botschool.grading.classes.tables import read_table, safe_cell
+from botschool.grading.declare.checks import plain
+from botschool.output import save_bytes
+
+PEOPLE = "people.csv"
+"""The table of doubtful people, in the class's folder."""
+NEW = "new"
+"""The answer for a person who is nobody else."""
+_HEAD = ["person", "name", "where", "student", "may be"]
+_KEYS, _NUMBERS = ("id", "mail", "user"), ("participant", "canvas")
+
+
+def letters(text: str) -> str:
+    """Return the letters and digits of a text in lower case, without accents."""
+    plain_text = unicodedata.normalize("NFKD", text.casefold())
+    plain_text = "".join(each for each in plain_text if not unicodedata.combining(each))
+    return " ".join(re.findall(r"[^\W_]+", plain_text))
+
+
+def words(name: str) -> str:
+    """Return the words of a name in a fixed order."""
+    return " ".join(sorted(letters(name).split()))
+
+
+@dataclass(frozen=True)
+class Student:
+    """A person of the class, as a table names him."""
+
+    name: str
+    id: str = ""
+    mail: str = ""
+    user: str = ""
+    participant: str = ""
+    """Moodle's number, another one in each assignment."""
+    canvas: str = ""
+    """Canvas's number."""
+    row: int = 0
+    again: tuple[Student, ...] = ()
+    """Further rows of the same student."""
+
+    @property
+    def rows(self) -> list[int]:
+        return [self.row, *(each.row for each in self.again)]
+
+    @property
+    def is_named(self) -> bool:
+        """Return whether the table has a name, for which else a key stands."""
+        return self.name not in (self.user, self.mail, self.id)
+
+    @property
+    def key(self) -> str:
+        """Return the shortest word that names this student in tables that people edit."""
+        return self.id or self.mail or self.user or next(iter(self.numbers()), self.name)
+
+    def numbers(self) -> list[str]:
+        """Return the platforms' numbers, in words that name only this student."""
+        given = (("moodle", self.participant), ("canvas", self.canvas))
+        own = [f"{platform} {number}" for platform, number in given if number]
+        return [*own, *(each for row in self.again for each in row.numbers())]
+
+    def keys(self) -> set[str]:
+        """Return the words that name only this student, in lower case."""
+        given = (self.id, self.mail, self.user, self.mail.partition("@")[0])
+        own = {key.casefold() for key in given if key}.union(self.numbers())
+        return own.union(*(each.keys() for each in self.again))
+
+    def names(self) -> set[str]:
+        """Return the words of the name, as each row has it."""
+        return {words(each.name) for each in (self, *self.again)}
+
+    def differs(self, other: Student) -> bool:
+        """Return whether the ids of two students of one name say that they are two people."""
+        both = [(getattr(self, key), getattr(other, key)) for key in ("id", "canvas")]
+        return any(a and b and a.casefold() != b.casefold() for a, b in both)
+
+    def is_alike(self, other: Student) -> bool:
+        """Return whether two names may be of one student."""
+        mine, others = set(words(self.name).split()), set(words(other.name).split())
+        return mine <= others or others <= mine or not (self.is_named and other.is_named)
+
+
+@dataclass
+class Doubt:
+    """A person who may be one of several, or is taken for one of another email."""
+
+    person: Student
+    where: str
+    candidates: list[Student]
+    taken: str = ""
+    """The key of the student whom he is taken for until somebody says otherwise."""
+
+
+@dataclass
+class Known:
+    """The people of a class, each once, with all that tables and downloads say of them."""
+
+    settled: Mapping[str, str] = field(default_factory=dict)
+    """What the instructor has answered: Student.key -> a student's key or name, or NEW."""
+    people: list[Student] = field(default_factory=list)
+    doubts: list[Doubt] = field(default_factory=list)
+    _places: dict[tuple, list[int]] = field(default_factory=dict)
+    _rows: dict[Student, int] = field(default_factory=dict)
+
+    def add(
+        self,
+        rows: Sequence[Student],
+        where: str = "",
+        equal: Sequence[tuple] = (),
+        clash: Callable[[int, int], bool] = lambda index, at: False,
+    ) -> list[int]:
+        """Return the number of each row's person; new people get the next ones.
+
+        A number of a platform, an id, an email or a user name decides, then a name that only one
+        person has, here and in earlier tables. where: the table or download, for questions.
+        equal: a key of each row, which equal rows share. clash(index, number): whether a row and a
+        person of its name did what only two people do.
+        """
+        before, found = len(self.people), dict[int, int]()
+        for index, row in enumerate(rows):
+            keys = [*_keys(row), *(("row", *each) for each in equal[index : index + 1])]
+            at = self._rows.get(row, self._answered(row))
+            at = self._same(row, keys, before) if at is None else at
+            if at is not None or not before:
+                found[index] = self._enter(row, at, keys)
+        left = [index for index in range(len(rows)) if index not in found]
+        counts = Counter(words(rows[index].name) for index in left)
+        free = [at for at in range(before) if at not in found.values()]
+        for index in left:
+            row = rows[index]
+            alone = [at for at in free if counts[words(row.name)] == 1 and not clash(index, at)]
+            at = self._by_name(row, free, alone, where)
+            found[index] = self._enter(row, at, _keys(row))
+        return [found[index] for index in range(len(rows))]
+
+    def find(self, text: str) -> int | None:
+        """Return the number of the only person with this id, mail, user name, number or name."""
+        key, name = text.strip().casefold(), words(text)
+        people = list(enumerate(self.people))
+        found = [at for at, each in people if key in set(each.keys())]
+        found = found or [at for at, each in people if name in each.names()]
+        return found[0] if len(found) == 1 else None
+
+    def _answered(self, row: Student) -> int | None:
+        answer = next((self.settled[key] for key in questions(row) if key in self.settled), "")
+        return self.find(answer) if answer and answer != NEW else None
+
+    def _same(self, row: Student, keys: list[tuple], before: int) -> int | None:
+        """Return the person who shares a key with a row.
+
+        Tables put the same dash into many cells, so a key needs a name that fits; an email that
+        only one person of earlier tables has needs none.
+        """
+        for key in keys:
+            there = self._places.get(key, [])
+            for at in there:
+                known = self.people[at]
+                alone = key[0] == "mail" and "@" in key[1] and len(there) == 1 and at < before
+                fits = alone or any(row.is_alike(each) for each in (known, *known.again))
+                if key[0] not in _KEYS or (fits and not (alone and row.differs(known))):
+                    return at
+        return None
+
+    def _by_name(self, row: Student, free: list[int], alone: list[int], where: str) -> int | None:
+        """Return the person of this name, and note what is doubtful.
+
+        free: people whom no other row names. alone: those whom the name may stand for.
+        """
+        if any(self.settled.get(key) == NEW for key in questions(row)):
+            return None
+        others = [at for at in free if not row.differs(self.people[at])]
+        equal = [at for at in others if words(row.name) in self.people[at].names()]
+        if len(equal) == 1 and equal[0] in alone:
+            known = self.people[equal[0]]
+            if row.mail and known.mail and row.mail.casefold() not in set(known.keys()):
+                self.doubts.append(Doubt(row, where, [known], known.key))
+            return equal[0]
+        named = [at for at in others if row.is_named and self.people[at].is_named]
+        alike = [at for at in named if words(row.name) and row.is_alike(self.people[at])]
+        same_id = [at for key in _keys(row) for at in self._places.get(key, []) if at in free]
+        if near := list(dict.fromkeys([*equal, *alike, *same_id])):
+            self.doubts.append(Doubt(row, where, [self.people[at] for at in near]))
+        return None
+
+    def _enter(self, row: Student, at: int | None, keys: list[tuple]) -> int:
+        if at is None:
+            at = len(self.people)
+            self.people.append(row)
+        elif row != self.people[at] and row not in self.people[at].again:
+            known = self.people[at]
+            filled = {key: getattr(known, key) or getattr(row, key) for key in (*_KEYS, *_NUMBERS)}
+            name = known.name if known.is_named or not row.is_named else row.name
+            self.people[at] = replace(known, name=name, again=(*known.again, row), **filled)
+        self._rows[row] = at
+        for key in keys:
+            places = self._places.setdefault(key, [])
+            places += [at] * (at not in places)
+        return at
+
+
+def _keys(row: Student) -> list[tuple]:
+    """Return what identifies a row: (field, value), the platforms' numbers first."""
+    given = [(key, getattr(row, key).casefold()) for key in (*_NUMBERS, *_KEYS)]
+    return [(key, value) for key, value in given if value]
+
+
+def questions(row: Student) -> list[str]:
+    """Return the words under which PEOPLE may name a person, the best one first."""
+    return [*filter(None, (row.mail, row.id, row.user)), *row.numbers()] or [row.name]
+
+
+def read_answers(folder: Path) -> dict[str, str]:
+    """Return what the instructor wrote into PEOPLE: person -> student. Raises BotschoolError."""
+    path = folder / PEOPLE
+    if not path.is_file():
+        return {}
+    table = read_table(path)
+    if missing := [name for name in _HEAD[:4] if table.column(name) is None]:
+        raise BotschoolError(f"{path} has no column '{missing[0]}': put it back.")
+    pairs = [
+        [table.get(row, name).lstrip("'") for name in ("person", "student")] for row in table.rows
+    ]
+    return {person: student for person, student in pairs if person and student}
+
+
+def ask(folder: Path, doubts: Sequence[Doubt]) -> list[str]:
+    """Add people to the class's table of doubtful ones; return sentences for the instructor.
+
+    What stands in the table stays. Raises BotschoolError.
+    """
+    path, rows = folder / PEOPLE, []
+    if path.is_file():
+        read_answers(folder)
+        table = read_table(path)
+        rows = [[table.get(row, name) for name in ("person", "name", "where", "student", "maybe")]
+                for row in table.rows]  # fmt: skip
+    there = {row[0].lstrip("'") for row in rows}
+    for doubt in doubts:
+        if (key := questions(doubt.person)[0]) not in there:
+            there.add(key)
+            may_be = "; ".join(_shown(each) for each in doubt.candidates)
+            cells = [key, doubt.person.name, doubt.where, doubt.taken, may_be]
+            rows.append([safe_cell(cell) for cell in cells])
+    if doubts:
+        stream = io.StringIO()
+        csv.writer(stream, lineterminator="\n").writerows([_HEAD, *rows])
+        save_bytes(path, stream.getvalue().encode("utf-8-sig", "replace"))
+    taken = [f"{plain(each.person.name)} ({each.person.mail})" for each in doubts if each.taken]
+    open_ = [f"{plain(each.person.name)} ({questions(each.person)[0]})" for each in doubts
+             if not each.taken]  # fmt: skip
+    said = []
+    if taken:
+        said.append(
+            f"Another email than before, but the same name: {', '.join(taken)}. Each counts as one "
+            f"person; if that is wrong, correct the column 'student' of {path}."
+        )
+    if open_:
+        said.append(
+            f"Doubtful: {', '.join(open_)}. Each has a row of its own until you write who it is "
+            f"into the column 'student' of {path} (an id, an email, or '{NEW}'), and repeat this."
+        )
+    return said
+
+
+def _shown(student: Student) -> str:
+    keys = [key for key in (student.key, student.mail) if key != student.name]
+    return " ".join([student.name, *(f"({key})" for key in dict.fromkeys(keys) if key)])

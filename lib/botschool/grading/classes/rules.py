@@ -1,0 +1,222 @@
+"""Apply an instructor's rules: deadlines, extensions, adjustments, weights.
+
+Each grading applies them anew (docs/specification.md, "A class"). policy.py reads them.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from datetime import datetime, timedelta
+from pathlib import Path
+from typing import Any
+
+from botschool.grading.classes.identity import Student, words
+from botschool.grading.declare.exercise import Number
+
+_UNITS = {"hour": timedelta(hours=1), "day": timedelta(days=1), "week": timedelta(weeks=1)}
+TOTAL = "total"
+"""What an adjustment of the term's total names instead of an exercise."""
+
+
+@dataclass
+class LateRule:
+    """A loss of points, out of a hundred, for each started day (hour, week)."""
+
+    off: float
+    unit: str
+    most: float = 100.0
+
+    def points(self, by: timedelta) -> float:
+        """Return how many of a hundred points a delay costs."""
+        return min(self.most, self.off * math.ceil(by / _UNITS[self.unit])) if by > _NONE else 0.0
+
+
+_NONE = timedelta()
+
+
+@dataclass
+class Adjustment:
+    """A manual change of a person's points."""
+
+    exercise: Number
+    points: float
+    sets: bool
+    """Whether the number is the points themselves, not a change."""
+    reason: str
+    task: str = ""
+    """The task whose points change; "" for the exercise's."""
+
+
+@dataclass
+class Policy:
+    """A class's settings; keys of people are those of roster.words or student ids."""
+
+    roster: Path | None = None
+    due: dict[Number, datetime] = field(default_factory=dict)
+    late: LateRule | None = None
+    extensions: dict[str, dict[Number, datetime]] = field(default_factory=dict)
+    adjustments: dict[str, list[Adjustment]] = field(default_factory=dict)
+    submitted: dict[str, dict[Number, datetime]] = field(default_factory=dict)
+    """Times of submission from a table; exercise 0 stands for all."""
+    groups: dict[str, list[str]] = field(default_factory=dict)
+    """Group -> its members."""
+    weights: dict[Number, float] = field(default_factory=dict)
+    total: float | None = None
+    """The points of a total in which nothing is missing; None for the weighted sum."""
+    bonus: bool = False
+    """Whether points above the maximum count."""
+    path: Path | None = None
+    tables: list[Path] = field(default_factory=list)
+    """Tables of adjustments."""
+    answers: dict[str, str] = field(default_factory=dict)
+    """Who doubtful people are, as in identity.PEOPLE."""
+    places: dict[Any, str] = field(default_factory=dict)
+    """Key of a person, or number of an exercise -> where the settings name it."""
+    errors: list[str] = field(default_factory=list)
+    """Sentences on what cannot be read."""
+
+    def names(self, student: Student | None, shown: str) -> list[str]:
+        """Return the keys under which the settings may name a person."""
+        keys = sorted(student.keys()) if student else []
+        return [*keys, words(student.name if student else shown), shown.casefold()]
+
+    @property
+    def named(self) -> list[str]:
+        """Return the keys of all people whom the settings name."""
+        members = [each for group in self.groups.values() for each in group]
+        return list(dict.fromkeys([*self.extensions, *self.adjustments, *self.submitted, *members]))
+
+    def digest(self, numbers: Iterable[Number]) -> str:
+        """Return a text that changes if a rule for one of these exercises changes."""
+        number_of: set[Any] = {0, *numbers}
+        own = [
+            sorted(
+                (name, str(key), str(value))
+                for name, values in rules.items()
+                for key, value in (
+                    values.items()
+                    if isinstance(values, dict)
+                    else [(v.exercise, v) for v in values]
+                )
+                if key in number_of
+            )
+            for rules in (self.extensions, self.adjustments, self.submitted)
+        ]
+        due = sorted((str(k), str(v)) for k, v in self.due.items() if k in number_of)
+        told = repr((due, self.late, own, sorted(self.groups.items()), self.bonus))
+        return hashlib.sha256(told.encode()).hexdigest()[:16]
+
+    def has_deadline(self, number: Number) -> bool:
+        """Return whether the time of submission of an exercise matters."""
+        return number in self.due or any(number in each for each in self.extensions.values())
+
+    def apply(
+        self, result: dict[str, Any], names: list[str], moment: datetime | None, marked: bool
+    ) -> dict[str, Any]:
+        """Return a result with deadline and adjustments; names: as returned by `names`.
+
+        moment: when it was handed in. marked: whether the platform marks it as late.
+        """
+        number = result["exercise"]
+        points, notes = float(result["points"]), []
+        for name in names:
+            times = self.submitted.get(name, {})
+            moment = times.get(number, times.get(0, moment))
+        due = general = self.due.get(number)
+        for name in names:
+            due = self.extensions.get(name, {}).get(number, due)
+        if moment:
+            moment = moment.replace(second=0, microsecond=0)  # 23:59 lasts a minute
+        if result["graded"] and due and moment and moment > due:
+            off = self.late.points(moment - due) * result["max_points"] / 100 if self.late else 0
+            off = min(points, off)
+            points -= off
+            notes.append(f"Late by {_duration(moment - due)}: {tidy(off)} points off.")
+        elif result["graded"] and due and marked and moment is None:
+            notes.append("The platform marks it late, but not how late.")
+            if due != general:
+                notes[-1] += f" The extension until {due:%Y-%m-%d %H:%M} counts: nothing is off."
+            elif self.late:
+                off = self.late.points(_UNITS[self.late.unit]) * result["max_points"] / 100
+                off = min(points, off)
+                points -= off
+                notes[-1] += f" Counted as one {self.late.unit}: {tidy(off)} points off."
+        result, points, said = self._adjusted(result, points, names)
+        notes += said
+        points, capped = self._capped(points, result["max_points"])
+        return result | {"points": points, "notes": [*result["notes"], *notes, *capped]}
+
+    def _capped(self, points: float, most: float) -> tuple[float, list[str]]:
+        """Return points within their limits, and a sentence if some do not count."""
+        if points > most and not self.bonus:
+            return tidy(most), [f"{tidy(points)} points: {tidy(most)} count."]
+        return tidy(max(0.0, points)), []
+
+    def total_of(
+        self, results: Iterable[tuple[Number, float, float]], names: list[str]
+    ) -> tuple[float, float, list[str]]:
+        """Return a total, its maximum, and sentences on adjustments.
+
+        results: (exercise, points, maximum) of each. names: as returned by `names`.
+        """
+        weighed = [(self.weight(number), points, most) for number, points, most in results]
+        most = sum(weight * each for weight, _, each in weighed)
+        points = sum(weight * each for weight, each, _ in weighed)
+        if self.total is not None:
+            points, most = points * self.total / most if most else 0.0, self.total
+        whole = {"exercise": TOTAL, "graded": True, "tasks": []}
+        _, points, notes = self._adjusted(whole, points, names)
+        points, capped = self._capped(points, most)
+        return points, tidy(most), [*notes, *capped]
+
+    def _adjusted(
+        self, result: dict[str, Any], points: float, names: list[str]
+    ) -> tuple[dict[str, Any], float, list[str]]:
+        """Return the result and its points after the adjustments by hand, and sentences."""
+        notes = []
+        for each in (a for name in dict.fromkeys(names) for a in self.adjustments.get(name, ())):
+            if each.exercise == result["exercise"] and (result["graded"] or each.sets):
+                if each.task:
+                    result, change = _with_task(result, each)
+                    points += change
+                    continue
+                points = each.points if each.sets else points + each.points
+                result = result | {"graded": True}
+                what = "Set to" if each.sets else "Adjusted by"
+                sign = "+" if each.points > 0 and not each.sets else ""
+                notes.append(
+                    f"{what} {sign}{tidy(each.points)} points: {each.reason or 'by hand'}."
+                )
+        return result, points, notes
+
+    def weight(self, number: Number) -> float:
+        return self.weights.get(number, 1.0)
+
+
+def _with_task(result: dict[str, Any], by: Adjustment) -> tuple[dict[str, Any], float]:
+    """Return the result with a task's points changed within its limits, and the change."""
+    tasks, change = [dict(task) for task in result["tasks"]], 0.0
+    for task in tasks:
+        if task["id"] == by.task:
+            wanted = by.points if by.sets else task["points"] + by.points
+            points = tidy(min(float(task["max_points"]), max(0.0, wanted)))
+            change += points - task["points"]
+            task["points"] = points
+            task["message"] = "" if by.reason in ("", "words") else by.reason
+    return result | {"tasks": tasks, "graded": True}, change
+
+
+def tidy(number: float) -> int | float:
+    """Return a number with at most two decimals; whole if possible."""
+    rounded = round(number, 2)
+    return int(rounded) if rounded == int(rounded) else rounded
+
+
+def _duration(by: timedelta) -> str:
+    hours = by / timedelta(hours=1)
+    if hours < 1:
+        return f"{max(1, round(hours * 60))} minutes"
+    return f"{hours:.1f} hours" if hours < 48 else f"{hours / 24:.1f} days"
