@@ -41,6 +41,7 @@ weights: {3: 2, 4: 0.5}
     def read(self, path: Path) -> None:
         from datetime import datetime
 
+        from botschool.grading.classes.identity import Student
         from botschool.grading.classes.policy import read_policy
         from botschool.grading.classes.roster import read_roster
 
@@ -55,7 +56,7 @@ weights: {3: 2, 4: 0.5}
             }
             moment = datetime(2026, 11, 26, 12)
             for name in ("Ada Lovelace", "Alan Turing"):
-                found = policy.apply(result, policy.names(None, name), moment, False)
+                found = policy.apply(result, Student(name).called(), moment, False)
                 assert 0 <= found["points"] <= 10**9, found
             policy.weight(number)
         if policy.roster:

@@ -294,6 +294,44 @@ def grade_all(
         raise typer.Exit(1)
 
 
+@app.command(epilog="Example: botschool gradebook results/ex03 results/ex05 -o results/term")
+def gradebook(
+    outputs: Annotated[
+        list[Path], typer.Argument(help="Folders that grade-all has written.", metavar="OUT")
+    ],
+    output: Annotated[
+        Path, typer.Option("-o", "--output", help="Folder for the table.", metavar="FOLDER")
+    ] = Path("results/term"),
+    roster: Annotated[
+        Path | None, typer.Option(help="A table of the class: names, ids, mail.", metavar="CSV")
+    ] = None,
+    gradebook: Annotated[
+        Path | None,
+        typer.Option(help="As for grade-all: gets the totals of the term.", metavar="CSV"),
+    ] = None,
+    column: Annotated[
+        str, typer.Option(help="Name of the column in Canvas's gradebook.", metavar="NAME")
+    ] = "",
+    settings: Annotated[
+        Path | None,
+        typer.Option(
+            "--class",
+            help="A file of weights and other rules.",
+            metavar="FILE",
+            show_default="the class.yaml that grade-all has used",
+        ),
+    ] = None,
+) -> None:
+    """For instructors: join the results of several gradings into one table of the term.
+
+    Each person has one row. The exit code is 1 if somebody is missing, doubtful or not graded.
+    """
+    from botschool.grading.classes.commands import gradebook_command
+
+    if not gradebook_command(outputs, output, roster, gradebook, column, settings):
+        raise typer.Exit(1)
+
+
 @app.command(epilog="Example: botschool export gradescope -e 3 -o results/export")
 def export(
     platform: Annotated[

@@ -7,7 +7,7 @@ import hashlib
 import io
 import os
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -20,9 +20,11 @@ from botschool.grading.classes.choice import Wanted
 from botschool.grading.classes.export import read_export
 from botschool.grading.classes.files import listed
 from botschool.grading.classes.finding import Submission, find_submissions, numbered_folders
-from botschool.grading.classes.outputs import OWN, write_outputs
+from botschool.grading.classes.members import Row, Settings
+from botschool.grading.classes.outputs import OWN, WORDS, write_outputs
 from botschool.grading.classes.people import Person
-from botschool.grading.classes.register import Register, Row, Settings
+from botschool.grading.classes.policy import FILE, add_table
+from botschool.grading.classes.register import Register
 from botschool.grading.classes.tables import safe_cell
 from botschool.grading.declare.exercise import Exercise, Number, called
 from botschool.grading.report.feedback import GENERATOR, page
@@ -72,6 +74,7 @@ def grade_all(
     settings: Settings | None = None,
     laboratories: Mapping[Number, Laboratory] = MappingProxyType({}),
     only_handed_in: bool = False,
+    known: Collection[Number] = (),
 ) -> Class:
     """Grade every submission and write grades.csv and feedback/STUDENT.html into `output`.
 
@@ -79,7 +82,7 @@ def grade_all(
     as in batch.Grades. start(count) is called with the number of files, report() after each of
     them.
     laboratories: those of `asked`. only_handed_in: whether to leave out laboratories that nobody
-    handed in. Raises BotschoolError before it starts, if this machine lacks what a submitted
+    handed in. known: all exercises and laboratories, () if unknown. Raises BotschoolError before it starts, if this machine lacks what a submitted
     exercise needs.
     """
     settings = settings or Settings()
@@ -107,14 +110,22 @@ def grade_all(
                 exercise = grades.exercise(number)
                 exercise.require(map(exercise.find, asked[number]) if asked[number] else None)
         folder = settings.policy.path or download.absolute()
+        rules = settings.policy.digest(asked)
+        add_table(settings.policy, output / WORDS)
         register = Register(submissions, settings, folder.parent)
         rows = _grade(register, output, asked, grades, workers, start, report)
         tables = {id(each): each for each in (settings.roster, settings.gradebook) if each}
         notes = [*export.notes, *(note for each in tables.values() for note in each.notes)]
-        found = Class(rows, register, export.nobodys, notes + register.notes)
+        if FILE in export.nobodys or (download / FILE).is_file():
+            notes.append(
+                f"{FILE} inside the download has no effect, since students could have written it: "
+                "put it beside the download, or name it with --class."
+            )
         skeletons = {one.number: one.skeleton for one in wanted}
-        found.written = write_outputs(output, rows, register, asked, skeletons)
-    return found
+        written = write_outputs(output, rows, register, asked, skeletons, rules)
+        notes += [*register.notes, *register.without_effect([*asked], known)]
+        nobodys = [name for name in export.nobodys if name != FILE]
+    return Class(rows, register, nobodys, notes, written)
 
 
 def _grade(

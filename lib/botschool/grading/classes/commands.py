@@ -9,15 +9,18 @@ from types import MappingProxyType
 
 from rich.console import Console
 
-from botschool.errors import BotschoolError
+from botschool.errors import BotschoolError, BotschoolErrors
 from botschool.grading.classes.collect import PAGES, TABLE, Class, Laboratory, grade_all
 from botschool.grading.classes.exporting import export
 from botschool.grading.classes.files import listed
+from botschool.grading.classes.members import Settings
+from botschool.grading.classes.outputs import filled
 from botschool.grading.classes.policy import FILE, read_policy
-from botschool.grading.classes.register import Settings
 from botschool.grading.classes.roster import read_roster
 from botschool.grading.classes.rules import Policy
 from botschool.grading.classes.statistics import by_task, hardest
+from botschool.grading.classes.term import TABLE as TERM
+from botschool.grading.classes.term import Term, read_output, say_term, write_term
 from botschool.grading.declare.exercise import Number, course_root, secret_for_others, selected
 from botschool.grading.report.screen import counting, say_missing
 from botschool.grading.run.confined import close_class
@@ -85,6 +88,7 @@ def grade_all_command(
             known,
             labs,
             exercise == "all",
+            [*selected("all", root), *laboratories],
         )
     good = say_class(console, found)
     console.print(
@@ -142,12 +146,51 @@ def _settings(
     return Settings(policy, read_roster(roster) if roster else None, book, column)
 
 
+def gradebook_command(
+    outputs: list[Path],
+    output: Path,
+    roster: Path | None,
+    gradebook: Path | None,
+    column: str,
+    settings: Path | None,
+) -> bool:
+    """Join outputs of grade-all into the table of a term, and print where it is.
+
+    Return True if nobody is missing, unknown, doubtful or not graded.
+    """
+    read = [read_output(folder) for folder in outputs]
+    files = {each.settings for each in read}
+    if settings is None and len(files) > 1:
+        raise BotschoolError(
+            f"The gradings used different settings ({', '.join(sorted(files - {''}))}): name the "
+            "term's with --class."
+        )
+    if settings is None and (name := files.pop()):
+        settings = Path(name)
+    known = _settings(output, roster, gradebook, column, settings)
+    if known.policy.errors:
+        raise BotschoolErrors(known.policy.errors)
+    term = Term(read, known, settings.parent if settings else output)
+    points = {
+        student: (row.total, " ".join(row.said))
+        for student, row in term.book_rows()
+        if row.total is not None
+    }
+    written = write_term(term, output, filled(output, known, points, term.maximum))
+    console = Console(highlight=False)
+    good = say_term(console, term, read)
+    console.print(f"Table: {output / TERM}", markup=False, soft_wrap=True)
+    for path in written[1:]:
+        console.print(f"Also: {path}", markup=False, soft_wrap=True)
+    return good
+
+
 def say_class(console: Console, found: Class) -> bool:
     """Print a class's results in a few lines; True if nobody is missing, unknown or ungraded."""
     register, rows = found.register, found.rows
     handed_in = [row for row in rows if row.page]
     totals = [row.total for row in rows if row.total is not None]
-    maximum = register.maximum(rows[0].results)
+    maximum = register.maximum()
     average = f"{sum(totals) / len(totals):.1f} of {maximum} points on average" if totals else ""
     ungraded = sum(row.total is None for row in handed_in)
     left = f"{ungraded} not graded and not counted" if ungraded else ""

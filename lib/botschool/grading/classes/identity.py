@@ -81,6 +81,11 @@ class Student:
         own = {key.casefold() for key in given if key}.union(self.numbers())
         return own.union(*(each.keys() for each in self.again))
 
+    def called(self) -> list[str]:
+        """Return all words by which tables may name this student, keys first."""
+        shown = {each.name.casefold() for each in (self, *self.again)}
+        return list(dict.fromkeys([*sorted(self.keys()), *sorted(self.names() | shown)]))
+
     def names(self) -> set[str]:
         """Return the words of the name, as each row has it."""
         return {words(each.name) for each in (self, *self.again)}
@@ -148,6 +153,10 @@ class Known:
             at = self._by_name(row, free, alone, where)
             found[index] = self._enter(row, at, _keys(row))
         return [found[index] for index in range(len(rows))]
+
+    def learn(self, number: int, row: Student) -> None:
+        """Add what a table or a download says of a known person."""
+        self._enter(row, number, _keys(row))
 
     def find(self, text: str) -> int | None:
         """Return the number of the only person with this id, mail, user name, number or name."""

@@ -25,13 +25,14 @@ from botschool.grading.classes.similar import (
 )
 from botschool.grading.classes.statistics import by_task, statistics_page
 from botschool.grading.classes.tables import read_table, safe_cell
+from botschool.grading.classes.term import RECORD, record
 from botschool.grading.classes.texts import code_of_notebook
 from botschool.grading.declare.exercise import Number, called
 from botschool.output import save_bytes
 
 OWN = (
     "class.html", "similar.html", "moodle.csv", "canvas.csv", "moodle-feedback.zip",
-    "canvas-feedback.zip",
+    "canvas-feedback.zip", RECORD,
 )  # fmt: skip
 """Names of these files."""
 WORDS = "words.csv"
@@ -44,10 +45,11 @@ def write_outputs(
     register: Register,
     asked: dict[Number, tuple[str, ...]],
     skeletons: dict[Number, str],
+    rules: str,
 ) -> list[Path]:
     """Write the files that this class's platform and settings need; return their paths.
 
-    Raises BotschoolError.
+    rules: as in term.record. Raises BotschoolError.
     """
     made = {"class.html": _statistics(rows, register)}
     if similar := _similar(rows, asked, skeletons):
@@ -57,6 +59,7 @@ def write_outputs(
     made |= _words(output, rows, register)
     for name, content in made.items():
         save_bytes(output / name, content)
+    save_bytes(output / RECORD, record(rows, register.policy, rules))
     return [output / name for name in made]
 
 
@@ -84,7 +87,7 @@ def _gradebook(output: Path, rows: list[Row], register: Register) -> dict[str, b
         for student, row in register.book_rows()
         if row.total is not None
     }
-    return filled(output, register.settings, points, register.maximum(rows[0].results))
+    return filled(output, register.settings, points, register.maximum())
 
 
 def filled(
@@ -104,31 +107,37 @@ def filled(
 def _words(output: Path, rows: list[Row], register: Register) -> dict[str, bytes]:
     """Return the table of the laboratories' texts, in which the instructor writes points.
 
-    A table that has points is never overwritten.
+    What stands in the table stays there, with a note where a text has changed since.
     """
+    place, before = output / WORDS, dict[tuple[str, str], list[str]]()
+    columns = ("name", "id", "exercise", "points", "reason", "text", "rubric")
+    if place.is_file():
+        table = read_table(place)
+        for old in table.rows:
+            cells = [table.get(old, each) for each in columns]
+            before[cells[1] or cells[0], cells[2]] = cells
     found = []
     for row in rows:
-        for result in row.results:
-            for task in result["tasks"]:
-                if text := task.get("words"):
-                    what = [task["id"], "", "words", text, task["message"]]
-                    found.append([safe_cell(each) for each in (row.name, *what)])
-    place = output / WORDS
-    if not found or place in register.policy.tables or has_points(place):
+        for task in [task for result in row.results for task in result["tasks"]]:
+            if not (text := safe_cell(task.get("words", ""))):
+                continue
+            key, name, what = safe_cell(row.about.key), safe_cell(row.name), task["id"]
+            old = before.pop((key, what), None) or before.pop((name, what), [""] * 6)
+            if old[3] and old[5] != text:
+                register.notes.append(
+                    f"{row.name} has changed {what} since you gave {old[3]} points: look at "
+                    f"{place} again."
+                )
+            rubric = safe_cell(task.get("rubric", task["message"]))
+            found.append([name, key, what, *old[3:5], text, rubric])
+    found += [cells for cells in before.values() if cells[3] or cells[4]]
+    if not found:
         return {}
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(["student", "exercise", "points", "reason", "text", "rubric"])
+    writer.writerow(["student", "id", "exercise", "points", "comment", "text", "rubric"])
     writer.writerows(found)
     return {WORDS: stream.getvalue().encode("utf-8-sig", "replace")}
-
-
-def has_points(place: Path) -> bool:
-    """Return whether the instructor has written points into a table of texts."""
-    if not place.is_file():
-        return False
-    table = read_table(place)
-    return any(table.get(row, "points") for row in table.rows)
 
 
 def _comment(row: Row) -> str:
@@ -143,7 +152,7 @@ def _statistics(rows: list[Row], register: Register) -> bytes:
     totals = [row.total for row in rows if row.total is not None]
     notes = [f"{sum(bool(row.page) for row in rows)} submissions."]
     if totals:
-        mean, most = sum(totals) / len(totals), register.maximum(rows[0].results)
+        mean, most = sum(totals) / len(totals), register.maximum()
         notes.append(f"{mean:.1f} of {most} points on average.")
     if register.missing:
         names = ", ".join(each.name for each in register.missing)

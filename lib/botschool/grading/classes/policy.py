@@ -65,6 +65,14 @@ def read_policy(path: Path, collect: bool = False) -> Policy:
     return policy
 
 
+def add_table(policy: Policy, path: Path) -> None:
+    """Add the adjustments of a table that class.yaml need not name, if there is one."""
+    if path.is_file() and path.resolve() not in [table.resolve() for table in policy.tables]:
+        reader = _Reader(path, policy)
+        for key, own in reader.adjustments(path.name).items():
+            policy.adjustments.setdefault(key, []).extend(own)
+
+
 class _Lined(dict):
     """A mapping of a YAML file that knows the line of each key."""
 
@@ -81,9 +89,9 @@ class _Lined(dict):
 class _Reader:
     """Read the settings one by one, and collect what is wrong with them."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, policy: Policy | None = None) -> None:
         self._path = path
-        self._policy = Policy(path=path)
+        self._policy = policy or Policy(path=path)
 
     def read(self, found: _Lined) -> Policy:
         for key, value in self._items(found, "settings, such as 'late: 10 per day'"):
@@ -225,15 +233,15 @@ def adjustment(table: Table, row: list[str]) -> Adjustment | None:
     Raises BotschoolError.
     """
     points = table.get(row, "points").lstrip("'").replace(",", ".")
-    if not points:
+    exercise, _, task = table.get(row, "exercise").partition(".")
+    reason = table.get(row, "reason").rstrip(".")
+    if not points and not (task and reason):
         return None
-    match = re.fullmatch(r"([=+-]?)(\d+(?:\.\d+)?)", points)
+    match = re.fullmatch(r"([=+-]?)(\d+(?:\.\d+)?)", points or "0")
     if not match:
         raise BotschoolError(f"'{points}' are not points: write +5, -10 or =80.")
     change = -float(match[2]) if match[1] == "-" else float(match[2])
-    exercise, _, task = table.get(row, "exercise").partition(".")
     number = TOTAL if exercise.strip().casefold() == TOTAL else _number(exercise)
-    reason = table.get(row, "reason").rstrip(".")
     return Adjustment(number, change, match[1] == "=", reason, task and f"{number}.{task}")
 
 

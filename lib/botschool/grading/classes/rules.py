@@ -13,7 +13,6 @@ from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
 
-from botschool.grading.classes.identity import Student, words
 from botschool.grading.declare.exercise import Number
 
 _UNITS = {"hour": timedelta(hours=1), "day": timedelta(days=1), "week": timedelta(weeks=1)}
@@ -78,11 +77,6 @@ class Policy:
     errors: list[str] = field(default_factory=list)
     """Sentences on what cannot be read."""
 
-    def names(self, student: Student | None, shown: str) -> list[str]:
-        """Return the keys under which the settings may name a person."""
-        keys = sorted(student.keys()) if student else []
-        return [*keys, words(student.name if student else shown), shown.casefold()]
-
     @property
     def named(self) -> list[str]:
         """Return the keys of all people whom the settings name."""
@@ -116,7 +110,7 @@ class Policy:
     def apply(
         self, result: dict[str, Any], names: list[str], moment: datetime | None, marked: bool
     ) -> dict[str, Any]:
-        """Return a result with deadline and adjustments; names: as returned by `names`.
+        """Return a result with deadline and adjustments; names: as returned by Student.called.
 
         moment: when it was handed in. marked: whether the platform marks it as late.
         """
@@ -155,16 +149,21 @@ class Policy:
             return tidy(most), [f"{tidy(points)} points: {tidy(most)} count."]
         return tidy(max(0.0, points)), []
 
-    def total_of(
-        self, results: Iterable[tuple[Number, float, float]], names: list[str]
-    ) -> tuple[float, float, list[str]]:
-        """Return a total, its maximum, and sentences on adjustments.
+    def weighed(self, results: Iterable[dict[str, Any]]) -> tuple[float, float]:
+        """Return the weighted sums of points and of their maxima."""
+        weighed = [(self.weight(r["exercise"]), r["points"], r["max_points"]) for r in results]
+        return (
+            tidy(sum(weight * points for weight, points, _ in weighed)),
+            tidy(sum(weight * most for weight, _, most in weighed)),
+        )
 
-        results: (exercise, points, maximum) of each. names: as returned by `names`.
+    def of_term(
+        self, points: float, most: float, names: list[str]
+    ) -> tuple[float, float, list[str]]:
+        """Return the term's total from the weighted sums, its maximum, and sentences.
+
+        names: as returned by Student.called.
         """
-        weighed = [(self.weight(number), points, most) for number, points, most in results]
-        most = sum(weight * each for weight, _, each in weighed)
-        points = sum(weight * each for weight, each, _ in weighed)
         if self.total is not None:
             points, most = points * self.total / most if most else 0.0, self.total
         whole = {"exercise": TOTAL, "graded": True, "tasks": []}
@@ -205,6 +204,7 @@ def _with_task(result: dict[str, Any], by: Adjustment) -> tuple[dict[str, Any], 
             points = tidy(min(float(task["max_points"]), max(0.0, wanted)))
             change += points - task["points"]
             task["points"] = points
+            task["rubric"] = task.get("rubric", task["message"])
             task["message"] = "" if by.reason in ("", "words") else by.reason
     return result | {"tasks": tasks, "graded": True}, change
 

@@ -1,0 +1,225 @@
+"""Join the outputs of several gradings into one table of the term.
+
+Each output of grade-all keeps its results in RECORD, with all that is known of the people.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import itertools
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+
+from botschool.errors import BotschoolError
+from botschool.grading.classes.files import listed
+from botschool.grading.classes.identity import Student
+from botschool.grading.classes.members import Members, Row, Settings
+from botschool.grading.classes.rules import TOTAL, Policy, tidy
+from botschool.grading.classes.tables import safe_cell
+from botschool.grading.declare.exercise import Number, called
+from botschool.grading.report.feedback import GENERATOR
+from botschool.output import save_bytes
+
+RECORD, TABLE = "grades.json", "gradebook.csv"
+_DAMAGED = "{} is damaged: grade again, with the same -o."
+
+
+@dataclass
+class Output:
+    """What a grading has left: its folder, and each person with the results."""
+
+    folder: Path
+    settings: str
+    """The path of its class.yaml; "" for none."""
+    rules: str
+    exercises: dict[Number, dict[str, Any]]
+    """Each exercise with its title and its maximum."""
+    people: list[tuple[Student, str, dict[Number, dict[str, Any]]]]
+    """Each person, the name to show, and the result of each exercise."""
+
+
+def record(rows: list[Row], policy: Policy, rules: str) -> bytes:
+    """Return what the table of a term needs; rules: Policy.digest of the exercises."""
+    kept = ("exercise", "title", "points", "max_points", "graded", "problem", "notes")
+    people = [
+        {
+            "about": asdict(row.about),
+            "name": row.name,
+            "results": [
+                {key: result[key] for key in kept}
+                | {"handed in": bool(row.handed(result["exercise"]))}
+                for result in row.results
+            ],
+        }
+        for row in rows
+    ]
+    settings = str(policy.path.resolve()) if policy.path else ""
+    made = {"made by": GENERATOR, "class": settings, "rules": rules, "people": people}
+    return json.dumps(made, indent=0, default=str).encode("utf-8", "replace")
+
+
+def read_output(folder: Path) -> Output:
+    """Return what a grading has left in its folder. Raises BotschoolError."""
+    path = folder / RECORD
+    try:
+        made = json.loads(path.read_bytes())
+        people = []
+        exercises: dict[Number, dict[str, Any]] = {}
+        for person in made["people"]:
+            results = {result["exercise"]: result for result in person["results"]}
+            for number, result in results.items():
+                exercises[number] = {
+                    "title": str(result["title"]), "max_points": float(result["max_points"])
+                }  # fmt: skip
+                result["points"] = float(result["points"])
+            people.append((_student(person["about"]), str(person["name"]), results))
+        return Output(folder, str(made["class"]), str(made["rules"]), exercises, people)
+    except FileNotFoundError:
+        raise BotschoolError(
+            f"{folder} holds no {RECORD}: name a folder that grade-all has written, or grade again."
+        ) from None
+    except OSError as error:
+        raise BotschoolError(f"{path} cannot be read ({error.strerror}).") from None
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+        raise BotschoolError(_DAMAGED.format(path)) from None
+
+
+def _student(about: Mapping[str, Any]) -> Student:
+    again = tuple(_student(each) for each in about["again"])
+    return Student(
+        **{**{key: str(value) for key, value in about.items()}, "row": 0, "again": again}
+    )
+
+
+class Term(Members):
+    """The people of a term, with the results of all outputs."""
+
+    def __init__(self, outputs: list[Output], settings: Settings, folder: Path) -> None:
+        """Join the outputs; folder: the class's, for questions.
+
+        Raises BotschoolErrors, with all that is wrong in the settings.
+        """
+        super().__init__(settings)
+        self.maximum = 0.0
+        """The most that a total can be."""
+        self.exercises = {key: each for one in outputs for key, each in one.exercises.items()}
+        numbered = itertools.count(1)
+        found: dict[int, list[dict[Number, dict[str, Any]]]] = {}
+        shown: dict[int, str] = {}
+        for output in outputs:
+            people = [replace(about, row=next(numbered)) for about, _, _ in output.people]
+
+            def clash(index: int, at: int, output: Output = output) -> bool:
+                mine = _handed(output.people[index][2])
+                return any(mine & _handed(each) for each in found.get(at, ()))
+
+            numbers = self._known.add(people, str(output.folder), clash=clash)
+            for at, (_, name, results) in zip(numbers, output.people, strict=True):
+                shown.setdefault(at, name)
+                found.setdefault(at, []).append(results)
+        students = range(len(self.roster.students) if self.roster else 0)
+        for number in dict.fromkeys([*students, *found]):
+            row = self.row(number, shown.get(number, ""))
+            row.results = [self._best(each, found.get(number, [])) for each in self.exercises]
+            self.rows.append(row)
+        self.check_names(TOTAL)
+        for row in self.rows:
+            self.finish(row)
+        self.ask(folder)
+
+    def _best(self, number: Number, results: list[dict[Number, dict[str, Any]]]) -> dict[str, Any]:
+        """Return the best result of an exercise; one without points for who handed in nothing."""
+        own = [each[number] for each in results if number in each]
+        nothing = {"exercise": number, "points": 0.0, "graded": False, "notes": [], "problem": ""}
+        made = [each for each in own if each["handed in"] or each["graded"]]
+        best = max(made, key=lambda each: (each["graded"], each["points"]), default=None)
+        if best is None:
+            return nothing | self.exercises[number] | {"handed in": False}
+        if sum(each["handed in"] for each in made) > 1:
+            note = f"In {len(made)} outputs: the better one counts."
+            best = best | {"notes": [*best["notes"], note]}
+        return best
+
+    def finish(self, row: Row) -> None:
+        """Compute a row's total, in which nothing counts 0; None if a submission is not graded."""
+        weighed = self.policy.weighed(row.results)
+        total, self.maximum, row.said = self.policy.of_term(*weighed, row.keys)
+        there = [result for result in row.results if result["handed in"] or result["graded"]]
+        if all(result["graded"] for result in there) and (there or row.said):
+            row.total = total
+
+    @property
+    def missing(self) -> list[Row]:
+        return [row for row in self.rows if not any(r["handed in"] for r in row.results)]
+
+
+def _handed(results: Mapping[Number, dict[str, Any]]) -> set[Number]:
+    return {number for number, result in results.items() if result["handed in"]}
+
+
+def table(term: Term) -> bytes:
+    """Return the table of the term: a row for each person."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    heads = [f"{called(number).lower()}" for number in term.exercises]
+    writer.writerow(["student", "total", "maximum", *heads, "notes", "id", "email"])
+    for row in term.rows:
+        points = [tidy(r["points"]) if r["graded"] else "" for r in row.results]
+        notes = " ".join([*map(_said, row.results), *row.said])
+        total = "" if row.total is None else row.total
+        cells = [row.name, total, term.maximum, *points, notes, row.about.id, row.about.mail]
+        writer.writerow([c if isinstance(c, (int, float)) else safe_cell(c) for c in cells])
+    return stream.getvalue().encode("utf-8-sig", "replace")
+
+
+def _said(result: dict[str, Any]) -> str:
+    said = " ".join(filter(None, [result["problem"], *result["notes"]]))
+    return f"{called(result['exercise'])}: {said}" if said else ""
+
+
+def say_term(console: Console, term: Term, outputs: list[Output]) -> bool:
+    """Print what the instructor must know; True if nothing is left to do."""
+    totals = [row.total for row in term.rows if row.total is not None]
+    mean = f"{sum(totals) / len(totals):.1f} of {term.maximum}" if totals else ""
+    average = f", {mean} points on average" if totals else ""
+    lines = [f"{len(term.rows)} people, {len(term.exercises)} exercises{average}."]
+    if missing := [row.name for row in term.missing]:
+        lines.append(f"Nothing from: {listed(missing)}.")
+    if term.unknown:
+        lines.append(f"Not on the roster: {listed(term.unknown)}.")
+    lacking = ((row, r) for row in term.rows for r in row.results if not r["graded"])
+    ungraded = list(dict.fromkeys(row.name for row, result in lacking if result["handed in"]))
+    if ungraded:
+        lines.append(f"Not graded, so without a total: {listed(ungraded)}.")
+    for one in outputs:
+        if one.rules != term.policy.digest(one.exercises):
+            lines.append(
+                f"{one.folder} was graded with other settings than the class has now: grade it "
+                "again."
+            )
+    for line in [*lines, *term.notes]:
+        console.print(line, markup=False, soft_wrap=True)
+    return not (ungraded or term.missing or term.unknown or term.doubtful)
+
+
+def write_term(term: Term, output: Path, more: dict[str, bytes]) -> list[Path]:
+    """Write the table and the platform's; return the paths. Raises BotschoolError."""
+    place = output / TABLE
+    if place.exists():
+        head = place.read_bytes()[:100].decode("utf-8-sig", "replace")
+        if place.is_symlink() or not head.startswith("student,total"):
+            raise BotschoolError(
+                f"{place} exists and was not made by botschool gradebook: move it away, or choose "
+                "another folder with -o."
+            )
+    output.mkdir(parents=True, exist_ok=True)
+    made = {TABLE: table(term)} | more
+    for name, content in made.items():
+        save_bytes(output / name, content)
+    return [output / name for name in made]
