@@ -82,8 +82,8 @@ def grade_all(
     as in batch.Grades. start(count) is called with the number of files, report() after each of
     them.
     laboratories: those of `asked`. only_handed_in: whether to leave out laboratories that nobody
-    handed in. known: all exercises and laboratories, () if unknown. Raises BotschoolError before it starts, if this machine lacks what a submitted
-    exercise needs.
+    handed in. known: all exercises and laboratories, () if unknown. Raises BotschoolError before it
+    starts, if this machine lacks what a submitted exercise needs.
     """
     settings = settings or Settings()
     with temporary_folder() as temporary:
@@ -109,10 +109,9 @@ def grade_all(
             if any(number in one.files for one in submissions):
                 exercise = grades.exercise(number)
                 exercise.require(map(exercise.find, asked[number]) if asked[number] else None)
-        folder = settings.policy.path or download.absolute()
         rules = settings.policy.digest(asked)
         add_table(settings.policy, output / WORDS)
-        register = Register(submissions, settings, folder.parent)
+        register = Register(submissions, settings)
         rows = _grade(register, output, asked, grades, workers, start, report)
         tables = {id(each): each for each in (settings.roster, settings.gradebook) if each}
         notes = [*export.notes, *(note for each in tables.values() for note in each.notes)]

@@ -13,6 +13,7 @@ from botschool.errors import BotschoolError, BotschoolErrors
 from botschool.grading.classes.collect import PAGES, TABLE, Class, Laboratory, grade_all
 from botschool.grading.classes.exporting import export
 from botschool.grading.classes.files import listed
+from botschool.grading.classes.identity import read_answers
 from botschool.grading.classes.members import Settings
 from botschool.grading.classes.outputs import filled
 from botschool.grading.classes.policy import FILE, read_policy
@@ -71,7 +72,7 @@ def grade_all_command(
     root = course_root()
     asked, labs = _asked(exercise, root, laboratories)
     console = Console(highlight=False)
-    known = _settings(folder, roster, gradebook, column, settings)
+    known = _settings(folder.absolute().parent, roster, gradebook, column, settings)
     secret, said = secret_for_others(root)
     close_class(folder, output)
     with counting("Grading", console) as (start, step):
@@ -125,17 +126,19 @@ def _asked(
 
 
 def _settings(
-    download: Path,
+    folder: Path,
     roster: Path | None,
     gradebook: Path | None,
     column: str,
     settings: Path | None,
 ) -> Settings:
-    """Return the class's settings; the function finds class.yaml beside the download by itself."""
-    beside = download.absolute().parent / FILE
+    """Return the class's settings; the function finds class.yaml in a folder by itself."""
+    beside = folder / FILE
     if settings is None and beside.is_file() and not beside.is_symlink():
         settings = beside
     policy = read_policy(settings, collect=True) if settings else Policy()
+    policy.folder = settings.parent if settings else folder
+    policy.answers = read_answers(policy.folder)
     roster = roster or policy.roster
     book = read_roster(gradebook) if gradebook else None
     if book and book.kind == "plain":
@@ -170,7 +173,7 @@ def gradebook_command(
     known = _settings(output, roster, gradebook, column, settings)
     if known.policy.errors:
         raise BotschoolErrors(known.policy.errors)
-    term = Term(read, known, settings.parent if settings else output)
+    term = Term(read, known)
     points = {
         student: (row.total, " ".join(row.said))
         for student, row in term.book_rows()

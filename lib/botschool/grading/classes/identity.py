@@ -167,8 +167,11 @@ class Known:
         return found[0] if len(found) == 1 else None
 
     def _answered(self, row: Student) -> int | None:
-        answer = next((self.settled[key] for key in questions(row) if key in self.settled), "")
-        return self.find(answer) if answer and answer != NEW else None
+        """Return who a row is as the table says, which may name either of two first."""
+        mine = {key.casefold() for key in questions(row)}
+        pairs = [pair for pair in self.settled.items() if NEW not in pair and mine & {*pair}]
+        found = (self.find(each) for pair in pairs for each in pair if each not in mine)
+        return next((at for at in found if at is not None), None)
 
     def _same(self, row: Student, keys: list[tuple], before: int) -> int | None:
         """Return the person who shares a key with a row.
@@ -191,7 +194,7 @@ class Known:
 
         free: people whom no other row names. alone: those whom the name may stand for.
         """
-        if any(self.settled.get(key) == NEW for key in questions(row)):
+        if any(self.settled.get(key.casefold()) == NEW for key in questions(row)):
             return None
         others = [at for at in free if not row.differs(self.people[at])]
         equal = [at for at in others if words(row.name) in self.people[at].names()]
@@ -269,6 +272,7 @@ def ask(folder: Path, doubts: Sequence[Doubt]) -> list[str]:
     if doubts:
         stream = io.StringIO()
         csv.writer(stream, lineterminator="\n").writerows([_HEAD, *rows])
+        folder.mkdir(parents=True, exist_ok=True)
         save_bytes(path, stream.getvalue().encode("utf-8-sig", "replace"))
     taken = [f"{plain(each.person.name)} ({each.person.mail})" for each in doubts if each.taken]
     open_ = [f"{plain(each.person.name)} ({questions(each.person)[0]})" for each in doubts

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -41,8 +41,8 @@ class Row:
     """The person on the class list."""
     parts: list[Submission] = field(default_factory=list)
     """What the person handed in: one for each download."""
-    group: list[tuple[str, Submission]] = field(default_factory=list)
-    """What members of the person's group handed in: who, and what."""
+    group: list[tuple[Number, str, Submission]] = field(default_factory=list)
+    """What members of the person's group handed in: the exercise (0: all), who, and what."""
     keys: list[str] = field(default_factory=list)
     """The words by which the settings may name the person."""
     page: str = ""
@@ -56,12 +56,17 @@ class Row:
     def handed(self, number: Number) -> list[tuple[str, Submission]]:
         """Return the submissions of an exercise; the group's if the person has none."""
         own = [("", part) for part in self.parts if number in part.files]
-        return own or [each for each in self.group if number in each[1].files]
+        return own or [
+            (said, part)
+            for which, said, part in self.group
+            if number in part.files and which in (0, number)
+        ]
 
     @property
     def is_missing(self) -> bool:
         """Return whether neither the person nor the group handed anything in."""
-        return not self.parts and not any(part.files for _, part in self.group)
+        numbers = {number for _, _, part in self.group for number in part.files}
+        return not self.parts and not any(map(self.handed, numbers))
 
     @property
     def notes(self) -> list[str]:
@@ -121,21 +126,21 @@ class Members:
         shown = student.name if student else name
         return Row(number, shown, about, student, keys=list(dict.fromkeys(keys)))
 
-    def ask(self, folder: Path | None) -> None:
+    def ask(self) -> None:
         """Put doubtful people into the table in the class's folder."""
         doubts = self._known.doubts
         self.doubtful = [each for each in doubts if not each.taken]
-        self.notes += ask(folder, doubts) if folder else []
+        self.notes += ask(self.policy.folder, doubts) if self.policy.folder else []
 
-    def check_names(self, only: Number | None = None) -> None:
+    def check_names(self, numbers: Collection[Number]) -> None:
         """Raise BotschoolErrors with what is wrong in the settings, and whom they cannot mean.
 
-        only: look at the adjustments of this alone.
+        numbers: the exercises whose rules matter.
         """
         errors, policy = list(self.policy.errors), self.policy
         counts = Counter(key for row in self.rows for key in row.keys)
-        own = [n for n, each in policy.adjustments.items() if any(a.exercise == only for a in each)]
-        for name in policy.named if only is None else own:
+        members = [each for group in policy.groups.values() for each in group if self.roster]
+        for name in dict.fromkeys([*policy.named(numbers), *members]):
             place = policy.places.get(name, "The class's settings:")
             if counts[name] == 0:
                 errors.append(

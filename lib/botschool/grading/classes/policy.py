@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from botschool.errors import BotschoolError, BotschoolErrors
-from botschool.grading.classes.identity import read_answers, words
+from botschool.grading.classes.identity import words
 from botschool.grading.classes.rules import TOTAL, Adjustment, LateRule, Policy
 from botschool.grading.classes.tables import Table, read_table
 from botschool.grading.classes.texts import is_larger
@@ -101,8 +101,6 @@ class _Reader:
                 continue
             with self._at(self._place(found, key)):
                 setattr(self._policy, key, getattr(self, key)(value))
-        with self._at(""):
-            self._policy.answers = read_answers(self._path.parent)
         return self._policy
 
     def _place(self, found: _Lined, key: Any) -> str:
@@ -216,14 +214,16 @@ class _Reader:
                     times[_number(number) if number else 0] = _moment(moment)
         return found
 
-    def groups(self, value: Any) -> dict[str, list[str]]:
-        found: dict[str, list[str]] = {}
+    def groups(self, value: Any) -> dict[tuple[str, Number], list[str]]:
+        found: dict[tuple[str, Number], list[str]] = {}
         for table, row, place in self._table(value, "groups"):
             with self._at(place):
                 group = table.get(row, "group").lstrip("'")
                 if not group:
                     raise BotschoolError("names no group: fill in the column 'group'.")
-                found.setdefault(group, []).append(self._who(table, row, place))
+                number = table.get(row, "exercise")
+                key = group, _number(number) if number else 0
+                found.setdefault(key, []).append(self._who(table, row, place))
         return found
 
 

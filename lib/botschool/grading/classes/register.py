@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping
 from datetime import datetime
-from pathlib import Path
 from typing import Any
 
 from botschool.grading.classes.choice import Choice
@@ -46,17 +45,12 @@ class Register(Members):
     the end.
     """
 
-    def __init__(
-        self, submissions: list[Submission], settings: Settings, folder: Path | None = None
-    ) -> None:
-        """Match them; folder: the class's, for questions.
-
-        Raises BotschoolErrors, with all that is wrong in the settings.
-        """
+    def __init__(self, submissions: list[Submission], settings: Settings) -> None:
+        """Match them. Raises BotschoolErrors, with all that is wrong in the settings."""
         super().__init__(settings)
         self._shown = Counter((one.person.section, one.student) for one in submissions)
         self._enter(submissions, self._number(submissions))
-        self.check_names()
+        self.check_names(submissions[0].choices if submissions else ())
         self._join_groups()
         self._told = {
             (id(part), number): _told(choice.origin)
@@ -64,7 +58,7 @@ class Register(Members):
             for number, choice in part.choices.items()
             if choice.origin and not part.person.platform and self.policy.has_deadline(number)
         }
-        self.ask(folder)
+        self.ask()
 
     def _number(self, submissions: list[Submission]) -> list[int]:
         """Return the number of each submission's person among the known ones."""
@@ -120,7 +114,7 @@ class Register(Members):
 
     def _join_groups(self) -> None:
         """Give each member what the others, or the group by its own name, handed in."""
-        for group, members in self.policy.groups.items():
+        for (group, number), members in self.policy.groups.items():
             rows = [row for row in self.rows if any(key in row.keys for key in members)]
             named = [
                 row for row in self.rows
@@ -130,7 +124,7 @@ class Register(Members):
             for row in rows:
                 others = [other for other in [*rows, *named] if other is not row]
                 row.group += [
-                    (f"Handed in by {other.name}, group {group}.", part)
+                    (number, f"Handed in by {other.name}, group {group}.", part)
                     for other in others
                     for part in other.parts
                 ]
@@ -167,7 +161,7 @@ class Register(Members):
                 found.append(self.policy.apply(result, row.keys, moment, part.person.late))
         if not found:
             choices = [part.choices[number] for part in row.parts]
-            missing = Choice(problem=MISSING, unread=not row.group)
+            missing = Choice(problem=MISSING, unread=row.is_missing)
             choice = choices[0] if choices else missing
             result = nothing(choice.problem, not choice.unread) | {"notes": choice.notes}
             return self.policy.apply(result, row.keys, None, False)

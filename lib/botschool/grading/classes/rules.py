@@ -60,14 +60,16 @@ class Policy:
     adjustments: dict[str, list[Adjustment]] = field(default_factory=dict)
     submitted: dict[str, dict[Number, datetime]] = field(default_factory=dict)
     """Times of submission from a table; exercise 0 stands for all."""
-    groups: dict[str, list[str]] = field(default_factory=dict)
-    """Group -> its members."""
+    groups: dict[tuple[str, Number], list[str]] = field(default_factory=dict)
+    """A group, and the exercise for which it is one (0: all) -> its members."""
     weights: dict[Number, float] = field(default_factory=dict)
     total: float | None = None
     """The points of a total in which nothing is missing; None for the weighted sum."""
     bonus: bool = False
     """Whether points above the maximum count."""
     path: Path | None = None
+    folder: Path | None = None
+    """The class's, in which the table of doubtful people is."""
     tables: list[Path] = field(default_factory=list)
     """Tables of adjustments."""
     answers: dict[str, str] = field(default_factory=dict)
@@ -77,30 +79,29 @@ class Policy:
     errors: list[str] = field(default_factory=list)
     """Sentences on what cannot be read."""
 
-    @property
-    def named(self) -> list[str]:
-        """Return the keys of all people whom the settings name."""
-        members = [each for group in self.groups.values() for each in group]
-        return list(dict.fromkeys([*self.extensions, *self.adjustments, *self.submitted, *members]))
+    def _own(self, rules: dict[str, Any], numbers: set[Any]) -> list[tuple[str, Any, Any]]:
+        """Return (person, exercise, rule) of the rules for some exercises."""
+        found = []
+        for name, values in rules.items():
+            pairs = (
+                values.items() if isinstance(values, dict) else [(v.exercise, v) for v in values]
+            )
+            found += [(name, key, value) for key, value in pairs if key in numbers]
+        return found
+
+    def named(self, numbers: Iterable[Number]) -> list[str]:
+        """Return the keys of people whom rules for some exercises name."""
+        wanted = {0, *numbers}
+        people = (self.extensions, self.adjustments, self.submitted)
+        return list(dict.fromkeys(one[0] for each in people for one in self._own(each, wanted)))
 
     def digest(self, numbers: Iterable[Number]) -> str:
         """Return a text that changes if a rule for one of these exercises changes."""
-        number_of: set[Any] = {0, *numbers}
-        own = [
-            sorted(
-                (name, str(key), str(value))
-                for name, values in rules.items()
-                for key, value in (
-                    values.items()
-                    if isinstance(values, dict)
-                    else [(v.exercise, v) for v in values]
-                )
-                if key in number_of
-            )
-            for rules in (self.extensions, self.adjustments, self.submitted)
-        ]
-        due = sorted((str(k), str(v)) for k, v in self.due.items() if k in number_of)
-        told = repr((due, self.late, own, sorted(self.groups.items()), self.bonus))
+        wanted: set[Any] = {0, *numbers}
+        people = (self.extensions, self.adjustments, self.submitted)
+        own = [sorted(map(str, self._own(each, wanted))) for each in people]
+        due = sorted((str(k), str(v)) for k, v in self.due.items() if k in wanted)
+        told = repr((due, self.late, own, sorted(self.groups.items(), key=str), self.bonus))
         return hashlib.sha256(told.encode()).hexdigest()[:16]
 
     def has_deadline(self, number: Number) -> bool:

@@ -100,11 +100,8 @@ def _student(about: Mapping[str, Any]) -> Student:
 class Term(Members):
     """The people of a term, with the results of all outputs."""
 
-    def __init__(self, outputs: list[Output], settings: Settings, folder: Path) -> None:
-        """Join the outputs; folder: the class's, for questions.
-
-        Raises BotschoolErrors, with all that is wrong in the settings.
-        """
+    def __init__(self, outputs: list[Output], settings: Settings) -> None:
+        """Join the outputs. Raises BotschoolErrors, with all that is wrong in the settings."""
         super().__init__(settings)
         self.maximum = 0.0
         """The most that a total can be."""
@@ -128,10 +125,10 @@ class Term(Members):
             row = self.row(number, shown.get(number, ""))
             row.results = [self._best(each, found.get(number, [])) for each in self.exercises]
             self.rows.append(row)
-        self.check_names(TOTAL)
+        self.check_names([TOTAL])
         for row in self.rows:
             self.finish(row)
-        self.ask(folder)
+        self.ask()
 
     def _best(self, number: Number, results: list[dict[Number, dict[str, Any]]]) -> dict[str, Any]:
         """Return the best result of an exercise; one without points for who handed in nothing."""
