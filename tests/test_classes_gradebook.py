@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import zipfile
 from datetime import datetime, timedelta
+from pathlib import Path
 
 import pytest
 
@@ -19,6 +20,7 @@ from botschool.grading.classes.statistics import by_task, hardest, statistics_pa
 from botschool.grading.classes.tables import safe_cell
 from botschool.grading.copies.skeleton import skeleton
 from botschool.grading.declare.trust import trust
+from botschool.grading.report.feedback import page as feedback
 from botschool.labs.classes import secret_choice
 from botschool.labs.declare import load_lab
 from botschool.labs.folder import Place
@@ -430,19 +432,48 @@ def task(points, message="", id="3.1"):
 
 
 def test_statistics_of_tasks():
-    results = [
-        {
+    people = [
+        (f"S{points}", f"S{points}.html", [{
             "graded": graded,
             "problem": "",
-            "tasks": [task(points, f"got {points}.5"), task(9, id="3.2")],
-        }
-        for graded, points in ((True, 0), (True, 4), (True, 10), (False, 0))
-    ]
-    first, second = by_task(results)
-    assert first.points == [0, 4, 10] and (first.full, first.none) == (1, 1)
-    assert first.messages == {"got #": 2} and hardest([first, second]) == [first]
-    page = statistics_page([first], ["<b>"])
-    assert "4.7 of 10" in page and "2 times: got #" in page and "&lt;b&gt;" in page
+            "tasks": [task(points, message), task(9, id="3.2")],
+        }])
+        for graded, points, message in (
+            (True, 0, "got 0.5\nYour code takes the sum."),
+            (True, 4, "got 4.5 <b>\nYour code takes the sum."),
+            (True, 5, "got 5.5 of 7"),
+            (True, 10, ""),
+            (False, 0, "got"),
+        )
+    ]  # fmt: skip
+    first, second = by_task(people)
+    assert first.points == [0, 4, 5, 10] and (first.full, first.none) == (1, 1)
+    assert {key: len(each) for key, each in first.mistakes.items()} == {
+        "takes the sum.": 2, "got # of #": 1
+    }  # fmt: skip
+    assert hardest([first, second]) == [first]
+    page = statistics_page([first], ["<i>"])
+    assert "4.8 <small>of 10" in page and "<b>2 of 4</b>: takes the sum." in page
+    assert "Median 4.5, the middle half from 3 to 6.25." in page and "&lt;i&gt;" in page
+    assert '<a href="feedback/S0.html">S0</a>' in page and "Your code takes the sum." in page
+    assert "<script" not in page and 'name="viewport"' in page
+
+
+def test_code_stands_beside_its_message_and_the_exercises_text_is_folded():
+    given = "\n".join([f"# text {n}" for n in range(9)] + ["def f():", "    raise NotImplementedError("
+                      '"task 3.1: do")', "def g():", '    raise NotImplementedError("task 3.2: do")'])  # fmt: skip
+    text = given.replace('raise NotImplementedError("task 3.1: do")', "return '<b>'")
+    result = {
+        "exercise": 3, "title": "T", "points": 0, "max_points": 20, "graded": True, "notes": [],
+        "problem": "", "banner": "", "pictures": [], "code": text, "skeleton": given,
+        "file": Path("tiny.py"),
+        "tasks": [task(0, "wrong answer") | {"printed": ""},
+                  task(0, "tiny.py:13 fails", id="3.2") | {"printed": ""}],
+    }  # fmt: skip
+    made = feedback("Ada", [result])
+    assert "9 lines of the exercise" in made and "<b>'" not in made
+    assert "<i>10</i><span>def f():</span></span></pre><aside><p><b>3.1</b> wrong answer" in made
+    assert made.index("<i>13</i>") < made.index("<b>3.2</b> tiny.py:13 fails")
 
 
 OTHER = """
@@ -484,7 +515,12 @@ def test_a_copy_with_other_names_is_found_and_the_skeleton_does_not_count():
     (pair,) = similar_pairs(programs, given)
     assert {pair.first.student, pair.second.student} == {"ada", "<bob>"} and pair.similarity == 1
     page = similarity_page({3: (6, [pair])})
-    assert "100%: ada and &lt;bob&gt;" in page and page.count("<mark>") > 20 and "<bob>" not in page
+    assert (
+        "100%: ada and &lt;bob&gt;" in page
+        and page.count("<mark>") > 20
+        and ":target" in page
+        and "<bob>" not in page
+    )
     assert similar_pairs([Program("a", given), Program("b", given)], given) == []
     same = [Program(f"s{i}", OTHER) for i in range(9)]
     (pair,) = similar_pairs(programs + same, given)  # and not 55 pairs

@@ -26,8 +26,10 @@ from botschool.grading.classes.people import Person
 from botschool.grading.classes.policy import FILE, add_table
 from botschool.grading.classes.register import Register
 from botschool.grading.classes.tables import safe_cell
+from botschool.grading.classes.texts import code_of_notebook
 from botschool.grading.declare.exercise import Exercise, Number, called
-from botschool.grading.report.feedback import GENERATOR, page
+from botschool.grading.report.feedback import page
+from botschool.grading.report.paper import GENERATOR
 from botschool.grading.run.temporary import temporary_folder
 from botschool.output import save_bytes
 
@@ -112,7 +114,8 @@ def grade_all(
         rules = settings.policy.digest(asked)
         add_table(settings.policy, output / WORDS)
         register = Register(submissions, settings)
-        rows = _grade(register, output, asked, grades, workers, start, report)
+        skeletons = {each.number: each.skeleton for each in wanted if each.skeleton}
+        rows = _grade(register, output, asked, grades, skeletons, workers, start, report)
         tables = {id(each): each for each in (settings.roster, settings.gradebook) if each}
         notes = [*export.notes, *(note for each in tables.values() for note in each.notes)]
         if FILE in export.nobodys or (download / FILE).is_file():
@@ -120,7 +123,6 @@ def grade_all(
                 f"{FILE} inside the download has no effect, since students could have written it: "
                 "put it beside the download, or name it with --class."
             )
-        skeletons = {one.number: one.skeleton for one in wanted}
         written = write_outputs(output, rows, register, asked, skeletons, rules)
         notes += [*register.notes, *register.without_effect([*asked], known)]
         nobodys = [name for name in export.nobodys if name != FILE]
@@ -132,6 +134,7 @@ def _grade(
     output: Path,
     asked: Asked,
     grades: Grades,
+    skeletons: Mapping[Number, str],
     workers: int,
     start: Callable[[int], None],
     report: Callable[[], None],
@@ -159,7 +162,9 @@ def _grade(
     def write(row: Row, name: str) -> None:
         for number in asked:
             nothing = partial(grades.nothing, number, tasks=asked[number])
-            row.results.append(register.result(row, number, done, nothing))
+            result = register.result(row, number, done, nothing)
+            code = _code(result["file"]) if number in skeletons and result.get("file") else ""
+            row.results.append(result | {"code": code, "skeleton": skeletons.get(number, "")})
         register.finish(row)
         if not row.is_missing:
             row.page = name
@@ -182,6 +187,15 @@ def _grade(
     grades.of(places, workers, keep)
     save_bytes(output / TABLE, _table(rows, register).encode("utf-8-sig", "replace"))
     return rows
+
+
+def _code(file: Path) -> str:
+    """Return the program of a graded file; "" if it cannot be read."""
+    try:
+        text = file.read_bytes().decode("utf-8", "replace")
+    except OSError:
+        return ""
+    return code_of_notebook(text) if file.suffix == ".ipynb" else text
 
 
 def _first(row: Row) -> Submission:

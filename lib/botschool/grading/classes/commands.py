@@ -213,7 +213,7 @@ def say_class(console: Console, found: Class) -> bool:
         more = f" and {len(problems) - 5} more" if len(problems) > 5 else ""
         shown = ", ".join(problems[:5]) + more
         lines.append(f"Some submissions could not be graded, see the notes in the table: {shown}")
-    hard = hardest(by_task(result for row in rows for result in row.results))
+    hard = hardest(by_task((row.name, row.page, row.results) for row in rows))
     if hard and len(handed_in) > 1:
         shown = ", ".join(f"{t.id} {t.title} ({round(100 * t.reached)}%)" for t in hard)
         lines.append(f"Where the class stumbled: {shown}.")

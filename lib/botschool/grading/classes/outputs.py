@@ -26,7 +26,6 @@ from botschool.grading.classes.similar import (
 from botschool.grading.classes.statistics import by_task, statistics_page
 from botschool.grading.classes.tables import read_table, safe_cell
 from botschool.grading.classes.term import RECORD, record
-from botschool.grading.classes.texts import code_of_notebook
 from botschool.grading.declare.exercise import Number, called
 from botschool.output import save_bytes
 
@@ -148,7 +147,6 @@ def _comment(row: Row) -> str:
 
 
 def _statistics(rows: list[Row], register: Register) -> bytes:
-    results = [result for row in rows for result in row.results]
     totals = [row.total for row in rows if row.total is not None]
     notes = [f"{sum(bool(row.page) for row in rows)} submissions."]
     if totals:
@@ -159,7 +157,8 @@ def _statistics(rows: list[Row], register: Register) -> bytes:
         notes.append(f"{len(register.missing)} handed in nothing: {names}.")
     if register.unknown:
         notes.append(f"{len(register.unknown)} not on the roster: {', '.join(register.unknown)}.")
-    return statistics_page(by_task(results), notes).encode("utf-8", "replace")
+    people = [(row.name, row.page, row.results) for row in rows]
+    return statistics_page(by_task(people), notes).encode("utf-8", "replace")
 
 
 def _similar(
@@ -167,23 +166,17 @@ def _similar(
 ) -> bytes:
     found = {}
     for number in [each for each in asked if isinstance(each, int)]:
-        programs, seen = [], set()
+        programs = {}
         for row in rows:
-            file = row.files.get(number)
-            if file is None or file in seen:  # a group's file is there once for each member
-                continue
-            seen.add(file)
-            try:
-                text = file.read_bytes().decode("utf-8", "replace")
-            except OSError:
-                continue
-            code = code_of_notebook(text) if file.suffix == ".ipynb" else text
-            programs.append(Program(row.name, code))
+            for result in row.results:  # a group's file is there once for each member
+                if result["exercise"] == number and result.get("code"):
+                    programs.setdefault(result["file"], Program(row.name, result["code"]))
         if len(programs) > 1:
-            found[number] = (len(programs), similar_pairs(programs, skeletons[number]))
+            pairs = similar_pairs([*programs.values()], skeletons[number])
+            found[number] = (len(programs), pairs)
     people = [row.name for row in rows]
     sheets = {lab: told for lab in asked if (told := doubtful(_sheets(rows, lab), people))}
-    page = similarity_page(found, sheets)
+    page = similarity_page(found, sheets, skeletons)
     return page.encode("utf-8", "replace") if found or sheets else b""
 
 

@@ -19,10 +19,10 @@ from html import escape
 from types import MappingProxyType
 
 from botschool.grading.classes.identity import words
-from botschool.grading.classes.statistics import page_without_scripts
 from botschool.grading.classes.wall import Broken, walled
 from botschool.grading.declare.checks import plain
 from botschool.grading.declare.exercise import Number, called
+from botschool.grading.report.paper import listing, paper, runs
 
 LENGTH = 9
 """Tokens in a sequence to compare."""
@@ -174,49 +174,56 @@ def _lines(own: dict[tuple[str, ...], set[int]], keys: Iterable[tuple[str, ...]]
 
 
 _STYLE = """
-body { font: 15px/1.5 system-ui, sans-serif; margin: 2rem; color: #1d2430; background: #fff; }
-.pair { border-top: 2px solid #dde2ea; margin-top: 2rem; }
-.both { display: grid; grid-template-columns: 1fr 1fr; gap: 1rem; }
-pre { font: 12px/1.4 ui-monospace, Menlo, Consolas, monospace; background: #f4f6f9; padding: .6rem;
- overflow-x: auto; margin: 0; }
-mark { background: #ffe08a; color: inherit; display: block; }
-.both pre > span { display: block; min-height: 1.4em; }
-h2 { overflow-wrap: anywhere; }
+.pair { display: none; }
+.pair:target { display: block; }
+.both { display: grid; grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); gap: 1rem;
+ margin-top: .6rem; }
+.both h3 { margin: 0 0 .3rem; font-size: 1rem; }
+main { max-width: 90rem; }
+nav { display: flex; justify-content: space-between; margin-bottom: .6rem; }
+@media (max-width: 40rem) { .both { grid-template-columns: minmax(0, 1fr); } }
+@media print { .pair { display: block; break-before: page; } }
 """
 
 
 def similarity_page(
     found: dict[int, tuple[int, list[Pair]]],
     sheets: Mapping[Number, list[str]] = MappingProxyType({}),
+    skeletons: Mapping[Number, str] = MappingProxyType({}),
 ) -> str:
-    """Return a page without scripts.
+    """Return a page without scripts, which shows one pair at a time.
 
     found: exercise -> programs compared, and pairs. sheets: laboratory -> sentences of `doubtful`.
+    skeletons: the exercises' files, whose lines are folded.
     """
-    body = []
+    body, pages = [], []
     for number, sentences in sheets.items():
         items = "".join(f"<li>{escape(sentence)}</li>" for sentence in sentences)
         body.append(f"<h1>{called(number)}: sheets to look at</h1><ul>{items}</ul>")
     for number, (count, pairs) in found.items():
         body.append(f"<h1>Exercise {number}: {len(pairs)} similar pairs of {count} programs</h1>")
-        if pairs:
-            items = "".join(
-                f'<li><a href="#e{number}p{i}">{_title(pair)}</a></li>'
-                for i, pair in enumerate(pairs)
-            )
-            body.append(f"<ol>{items}</ol>")
-        for i, pair in enumerate(pairs):
-            body.append(
-                f'<section class="pair" id="e{number}p{i}"><h2>{_title(pair)}</h2>'
-                f'<div class="both">{_listing(pair.first, pair.lines[0])}'
-                f"{_listing(pair.second, pair.lines[1])}</div></section>"
+        names = [f"e{number}p{index}" for index in range(len(pairs))]
+        items = "".join(
+            f'<li><a href="#{name}">{_title(pair)}</a></li>'
+            for name, pair in zip(names, pairs, strict=True)
+        )
+        body.append(f"<ol>{items}</ol>" if pairs else "")
+        for at, (name, pair) in enumerate(zip(names, pairs, strict=True)):
+            after = names[at + 1] if at + 1 < len(names) else "top"
+            skeleton = skeletons.get(number, "")
+            both = _listing(pair.first, pair.lines[0], skeleton)
+            both += _listing(pair.second, pair.lines[1], skeleton)
+            pages.append(
+                f'<section class="pair" id="{name}"><nav><a href="#top">all pairs</a>'
+                f'<a href="#{after}">{"next" if after != "top" else "all pairs"}</a></nav>'
+                f'<h2>{_title(pair)}</h2><div class="both">{both}</div></section>'
             )
     about = (
-        "<p>Compared without comments, layout and the names of variables; what the skeleton holds "
-        "does not count, and what many have counts little. A similar pair is a reason to look, "
-        "and no proof.</p>"
+        '<p id="top" class="soft">Compared without comments, layout and the names of variables; '
+        "what the skeleton holds does not count, and what many have counts little. A similar pair "
+        "is a reason to look, and no proof.</p>"
     )
-    return page_without_scripts("Similar submissions", _STYLE, "\n".join([about, *body]))
+    return paper("Similar submissions", "\n".join([about, *body, *pages]), _STYLE)
 
 
 def _title(pair: Pair) -> str:
@@ -225,9 +232,9 @@ def _title(pair: Pair) -> str:
     return f"{round(100 * pair.similarity)}%: {names}{also}"
 
 
-def _listing(program: Program, lines: frozenset[int]) -> str:
-    shown = []
-    for number, line in enumerate(program.text.splitlines(), 1):
-        tag = "mark" if number in lines else "span"
-        shown.append(f"<{tag}>{escape(line) or ' '}</{tag}>")
-    return f"<pre>{''.join(shown)}</pre>"
+def _listing(program: Program, lines: frozenset[int], skeleton: str) -> str:
+    code = "".join(
+        listing(program.text, first, end, given, lines)
+        for first, end, given in runs(program.text, skeleton)
+    )
+    return f"<div><h3>{escape(program.student)}</h3>{code}</div>"

@@ -1,16 +1,20 @@
-"""Show where a class lost points: points and frequent messages of each task."""
+"""Show where a class lost points: points, their spread and the frequent mistakes of each task."""
 
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from html import escape
+from statistics import median, quantiles
 from typing import Any
+from urllib.parse import quote
 
-MOST_MESSAGES = 3
-"""Messages of a task on the page."""
+from botschool.grading.judge.known import TOLD, VARIED
+from botschool.grading.report.paper import paper
+
+MOST_MISTAKES = 5
+"""Mistakes of a task on the page."""
 
 
 @dataclass
@@ -20,12 +24,21 @@ class TaskStatistics:
     id: str
     title: str
     max_points: int
-    points: list[int] = field(default_factory=list)
-    messages: Counter = field(default_factory=Counter)
+    points: list[float] = field(default_factory=list)
+    mistakes: dict[str, list[tuple[str, str, str]]] = field(default_factory=dict)
+    """A mistake -> (student, feedback page, message) of all who made it."""
 
     @property
     def mean(self) -> float:
         return sum(self.points) / len(self.points) if self.points else 0.0
+
+    @property
+    def middle(self) -> tuple[float, float]:
+        """Return the quartiles: half of the class lies between them."""
+        if len(self.points) < 2:
+            return (*self.points, 0.0, 0.0)[0], (*self.points, 0.0)[0]
+        low, _, high = quantiles(self.points, n=4, method="inclusive")
+        return low, high
 
     @property
     def reached(self) -> float:
@@ -41,19 +54,25 @@ class TaskStatistics:
         return sum(each == 0 for each in self.points)
 
 
-def by_task(results: Iterable[dict[str, Any]]) -> list[TaskStatistics]:
-    """Return the points of each task, from submitted and graded results; in order of tasks."""
+def by_task(
+    people: Iterable[tuple[str, str, Iterable[dict[str, Any]]]],
+) -> list[TaskStatistics]:
+    """Return the points of each task, from submitted and graded results; in order of tasks.
+
+    people: name, feedback page and results of each.
+    """
     found: dict[str, TaskStatistics] = {}
-    for result in results:
-        if not result["graded"] or result["problem"]:
-            continue
-        for task in result["tasks"]:
-            one = found.setdefault(
-                task["id"], TaskStatistics(task["id"], task["title"], task["max_points"])
-            )
-            one.points.append(task["points"])
-            if task["points"] < task["max_points"] and task["message"].strip():
-                one.messages[_alike(task["message"])] += 1
+    for student, page, results in people:
+        for result in results:
+            if not result["graded"] or result["problem"]:
+                continue
+            for task in result["tasks"]:
+                one = found.setdefault(
+                    task["id"], TaskStatistics(task["id"], task["title"], task["max_points"])
+                )
+                one.points.append(task["points"])
+                if task["points"] < task["max_points"] and (told := task["message"].strip()):
+                    one.mistakes.setdefault(mistake(told), []).append((student, page, told))
     return list(found.values())
 
 
@@ -62,58 +81,73 @@ def hardest(tasks: list[TaskStatistics], most: int = 3) -> list[TaskStatistics]:
     return sorted((t for t in tasks if t.reached < 0.9), key=lambda task: task.reached)[:most]
 
 
-def _alike(message: str) -> str:
-    """Return a message's first line without its numbers, so that equal ones are counted."""
-    first = message.strip().splitlines()[0]
-    return re.sub(r"-?\d+(\.\d+)?(e[+-]?\d+)?", "#", first)[:300]
+def mistake(message: str) -> str:
+    """Return what is wrong, in the words by which equal mistakes are counted.
+
+    It is the cause, if the message has found it, else its first line without numbers.
+    """
+    lines = message.splitlines()
+    for sign in (TOLD, VARIED):
+        if told := [line for line in lines if line.startswith(sign)]:
+            return told[0][len(sign) :].strip()[:300]
+    return re.sub(r"-?\d+(\.\d+)?(e[+-]?\d+)?", "#", lines[0])[:300]
 
 
 _STYLE = """
-body { font: 16px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 60rem; padding: 0 1rem;
- color: #1d2430; background: #fff; }
-table { border-collapse: collapse; width: 100%; }
-td, th { text-align: left; padding: .35rem .5rem; border-top: 1px solid #dde2ea;
- vertical-align: top; }
-td.n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
-.bar { background: #dde2ea; height: .6rem; width: 8rem; border-radius: .3rem; overflow: hidden; }
-.bar i { display: block; height: 100%; background: #1a7f4b; }
-small { color: #5d6878; overflow-wrap: anywhere; }
+.what { display: grid; grid-template-columns: minmax(0, 1fr) 9rem; gap: .2rem 1.2rem; }
+.what p, .what ul { margin: .3rem 0; }
+.what ul { grid-column: 1 / -1; padding: 0; list-style: none; }
+.what li { border-top: 1px solid var(--line); padding: .35rem 0; }
+.what summary { color: inherit; }
+svg { width: 9rem; height: 4.2rem; fill: var(--good); }
+svg text { fill: var(--soft); font: 9px system-ui, sans-serif; text-anchor: middle; }
+@media print { section { break-inside: avoid-page; } }
 """
+_BINS = ("0", "", "", "", "", "all")
+"""Labels of a histogram's columns: no points, four quarters, all points."""
 
 
 def statistics_page(tasks: list[TaskStatistics], notes: list[str]) -> str:
     """Return a page without scripts; notes: sentences on the class."""
-    rows = []
-    for task in tasks:
-        messages = "".join(
-            f"<br><small>{count} times: {escape(text)}</small>"
-            for text, count in task.messages.most_common(MOST_MESSAGES)
-        )
-        percent = round(100 * task.reached)
-        rows.append(
-            f"<tr><td>{escape(task.id)}</td><td>{escape(task.title)}{messages}</td>"
-            f'<td><div class="bar"><i style="width: {percent}%"></i></div></td>'
-            f'<td class="n">{task.mean:.1f} of {task.max_points}</td>'
-            f'<td class="n">{task.full}</td><td class="n">{task.none}</td>'
-            f'<td class="n">{len(task.points)}</td></tr>'
-        )
     said = "".join(f"<li>{escape(note)}</li>" for note in notes)
-    return page_without_scripts(
-        "The class",
-        _STYLE,
-        f"<h1>Where the class stumbled</h1>\n<ul>{said}</ul>\n<table>\n<tr><th>task</th><th></th>"
-        "<th></th><th>mean</th><th>full</th><th>zero</th><th>graded</th></tr>\n"
-        + "\n".join(rows)
-        + "\n</table>",
-    )
+    body = "".join(map(_section, tasks))
+    return paper("The class", f"<h1>Where the class stumbled</h1>\n<ul>{said}</ul>\n{body}", _STYLE)
 
 
-def page_without_scripts(title: str, style: str, body: str) -> str:
-    """Return a page of its own that loads nothing."""
+def _section(task: TaskStatistics) -> str:
+    count, low, high = len(task.points), *task.middle
+    wrong = sorted(task.mistakes.items(), key=lambda each: (-len(each[1]), each[0]))
+    items = ""
+    for what, examples in wrong[:MOST_MISTAKES]:
+        student, page, message = examples[0]
+        link = f'<a href="feedback/{quote(page)}">{escape(student)}</a>'
+        items += (
+            f"<li><details><summary><b>{len(examples)} of {count}</b>: {escape(what)}</summary>"
+            f"<p>For example {link}:</p><pre>{escape(message)}</pre></details></li>"
+        )
+    if others := sum(len(examples) for _, examples in wrong[MOST_MISTAKES:]):
+        items += f"<li>{others} of {count}: other mistakes</li>"
     return (
-        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
-        '<meta http-equiv="Content-Security-Policy"\n'
-        " content=\"default-src 'none'; style-src 'unsafe-inline'\">\n"
-        f'<meta name="generator" content="botschool grade-all">\n<title>{title}</title>\n'
-        f"<style>{style}</style>\n</head>\n<body>\n{body}\n</body>\n</html>\n"
+        f'<section><div class="head"><h2>{escape(task.id)} {escape(task.title)}</h2>'
+        f"<b>{task.mean:.1f} <small>of {task.max_points}</small></b></div>"
+        f'<div class="what"><p>Median {median(task.points):g}, the middle half from {low:g} to '
+        f"{high:g}. {task.full} of {count} have all points, {task.none} have none.</p>"
+        f"{_histogram(task)}<ul>{items}</ul></div></section>\n"
     )
+
+
+def _histogram(task: TaskStatistics) -> str:
+    """Return a small picture of how many have no points, a share in each quarter, and all."""
+    most, counts = task.max_points or 1, [0] * len(_BINS)
+    for each in task.points:
+        share = each / most
+        counts[0 if share <= 0 else 5 if share >= 1 else 1 + int(4 * share)] += 1
+    bars = ""
+    for at, (count, label) in enumerate(zip(counts, _BINS, strict=True)):
+        height = 40 * count / max(counts)
+        bars += (
+            f'<rect x="{24 * at + 2}" y="{54 - height:.1f}" width="20" height="{height + 1:.1f}"/>'
+            f'<text x="{24 * at + 12}" y="{50 - height:.1f}">{count or ""}</text>'
+            f'<text x="{24 * at + 12}" y="66">{label}</text>'
+        )
+    return f'<svg viewBox="0 0 144 68" role="img" aria-label="points: {counts}">{bars}</svg>'

@@ -23,7 +23,7 @@ from botschool.grading.classes.members import Members, Row, Settings
 from botschool.grading.classes.rules import TOTAL, Policy, tidy
 from botschool.grading.classes.tables import safe_cell
 from botschool.grading.declare.exercise import Number, called
-from botschool.grading.report.feedback import GENERATOR
+from botschool.grading.report.paper import GENERATOR
 from botschool.output import save_bytes
 
 RECORD, TABLE = "grades.json", "gradebook.csv"

@@ -1,6 +1,6 @@
 """Write a student's feedback as a web page: one file without scripts, readable offline and printed.
 
-The page escapes everything that comes from a submission, and may load nothing.
+It shows the student's program, too, and each message beside its line.
 """
 
 from __future__ import annotations
@@ -8,90 +8,60 @@ from __future__ import annotations
 import base64
 import re
 from collections.abc import Sequence
-from html import escape
+from html import escape, unescape
 from string import Template
 from typing import Any
 
 from botschool.grading.declare.exercise import called
+from botschool.grading.report.paper import listing, paper, place_of, runs
 
-GENERATOR = "botschool grade-all"
 MAX_LINES = 60
 """Lines to show of what a task printed."""
 
-_PAGE = Template("""<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy"
- content="default-src 'none'; img-src data:; style-src 'unsafe-inline'">
-<meta name="generator" content="$generator">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>$student: $points of $maximum points</title>
-<style>
-:root { --ink: #1d2430; --soft: #5d6878; --line: #dde2ea; --paper: #f4f6f9; --card: #fff;
- --good: #1a7f4b; --part: #b7791f; --none: #c0392b; --code: #f0f2f6; color-scheme: light dark; }
-@media (prefers-color-scheme: dark) { :root { --ink: #e4e8ef; --soft: #98a3b5; --line: #333b49;
- --paper: #14181f; --card: #1c222c; --good: #45c486; --part: #e0ab4f; --none: #ef7a6d;
- --code: #262d39; } }
-* { box-sizing: border-box; }
-body { margin: 0; background: var(--paper); color: var(--ink);
- font: 16px/1.55 system-ui, -apple-system, "Segoe UI", Roboto, sans-serif; }
-main { max-width: 54rem; margin: 0 auto; padding: 2.5rem 1.25rem 4rem; }
+_STYLE = """
 header { display: flex; justify-content: space-between; align-items: end; gap: 1.5rem;
  flex-wrap: wrap; margin-bottom: 1.5rem; }
-h1 { font-size: 1.9rem; line-height: 1.2; margin: 0; overflow-wrap: anywhere; }
-h2 { font-size: 1.2rem; margin: 0; }
-.soft { color: var(--soft); }
+header h1 { margin: 0; }
 .sum { font-size: 1.9rem; font-weight: 650; white-space: nowrap; }
-.sum small, h2 + b small { font-size: .6em; font-weight: 400; color: var(--soft); }
-section { background: var(--card); border: 1px solid var(--line); border-radius: .75rem;
- padding: 1.25rem 1.4rem; margin: 1.1rem 0; }
-.head { display: flex; justify-content: space-between; align-items: baseline; gap: 1rem; }
-.head b { font-size: 1.2rem; white-space: nowrap; }
+.sum small { font-size: .6em; font-weight: 400; color: var(--soft); }
 .bar { height: .5rem; border-radius: .25rem; background: var(--line); margin: .6rem 0 .9rem;
  overflow: hidden; }
 .bar i { display: block; height: 100%; background: var(--good); }
-.task { border-top: 1px solid var(--line); padding: .65rem 0; }
+.task { border-top: 1px solid var(--line); padding: .65rem 0; break-inside: avoid-page; }
 .line { display: flex; gap: .7rem; align-items: baseline; }
-.line .name { flex: 1; overflow-wrap: anywhere; }
+.line .name { flex: 1; }
 .mark { width: 1.2rem; font-weight: 700; text-align: center; }
 .good { color: var(--good); } .part { color: var(--part); } .none { color: var(--none); }
 .number { color: var(--soft); font-variant-numeric: tabular-nums; width: 2.6rem; }
 .points { font-variant-numeric: tabular-nums; white-space: nowrap; }
-.why { margin: .3rem 0 .2rem 1.9rem; overflow-wrap: anywhere; }
-.why p { margin: .15rem 0; }
-details { margin: .35rem 0 .2rem 1.9rem; color: var(--soft); }
-summary { cursor: pointer; }
-pre { background: var(--code); color: var(--ink); border-radius: .5rem; padding: .7rem .9rem;
- margin: .4rem 0; white-space: pre-wrap; overflow-wrap: anywhere;
- font: .85rem/1.45 ui-monospace, "SF Mono", Menlo, Consolas, monospace; }
-.problem { border-left: .25rem solid var(--none); padding-left: .8rem; overflow-wrap: anywhere; }
-.note { border-left: .25rem solid var(--part); padding-left: .8rem; margin: .5rem 0;
- overflow-wrap: anywhere; }
+.why, .task details { margin: .3rem 0 .2rem 1.9rem; }
+.why p { margin: .15rem 0; white-space: pre-wrap; }
+.problem { border-left: .25rem solid var(--none); padding-left: .8rem; }
 .pictures { display: flex; flex-wrap: wrap; gap: 1rem; margin-top: .8rem; }
 figure { margin: 0; flex: 1 1 20rem; }
 figure img { max-width: 100%; max-height: 40rem; border: 1px solid var(--line);
  border-radius: .5rem; background: #fff; }
-figcaption { color: var(--soft); font-size: .85rem; overflow-wrap: anywhere; }
-@media print { body { background: none; } section { break-inside: avoid-page; } }
-</style>
-</head>
-<body>
-<main>
-<header>
+figcaption { color: var(--soft); font-size: .85rem; }
+.work { border-top: 1px solid var(--line); padding-top: .65rem; }
+.code { margin-top: .5rem; }
+.code aside { border-left: .25rem solid var(--none); padding: .1rem .7rem; margin: .2rem 0;
+ font-size: .85rem; }
+.code aside p { margin: .1rem 0; white-space: pre-wrap; }
+@media (min-width: 52rem) { .code { display: grid; align-content: start;
+ grid-template-columns: minmax(0, 5fr) minmax(0, 3fr); } .code > * { grid-column: 1; }
+ .code aside { grid-column: 2; grid-row: span 2; margin: 0; } }
+"""
+
+_BODY = Template("""<header>
 <div><div class="soft">Feedback for</div><h1>$student</h1></div>
 <div class="sum">$points <small>of $maximum points</small></div>
 </header>
-$notes$sections
-</main>
-</body>
-</html>
-""")
+$notes$sections""")
 
 _SECTION = Template("""<section>
 <div class="head"><h2>$name. $title</h2><b>$points <small>of $maximum</small></b></div>
 <div class="bar"><i style="width: $percent%"></i></div>
-$problem$notes$banner$tasks$pictures
+$problem$notes$banner$tasks$pictures$code
 </section>""")
 
 _TASK = Template("""<div class="task">
@@ -103,14 +73,15 @@ $message$printed</div>
 
 def page(student: str, results: list[dict[str, Any]], notes: Sequence[str] = ()) -> str:
     """Return the page; results: as in batch.Grades, notes: sentences for its head."""
-    return _PAGE.substitute(
-        generator=GENERATOR,
+    points, maximum = _points(results), sum(result["max_points"] for result in results)
+    body = _BODY.substitute(
         student=escape(student),
-        points=_points(results),
-        maximum=sum(result["max_points"] for result in results),
+        points=points,
+        maximum=maximum,
         notes=_notes(notes),
         sections="\n".join(map(_section, results)),
     )
+    return paper(f"{student}: {unescape(points)} of {maximum} points", body, _STYLE)
 
 
 def _notes(notes: Sequence[str]) -> str:
@@ -136,6 +107,30 @@ def _section(result: dict[str, Any]) -> str:
         banner=f'<pre class="problem">{escape(banner)}</pre>\n' if banner else "",
         tasks="" if problem else "".join(map(_task, result["tasks"])),
         pictures=_pictures(result["pictures"]),
+        code=_code(result) if result.get("code") else "",
+    )
+
+
+def _code(result: dict[str, Any]) -> str:
+    """Return the student's program, each message beside its line; the exercise's text is folded."""
+    text, skeleton = result["code"], result["skeleton"]
+    beside: dict[int, list[dict[str, Any]]] = {}
+    for task in [t for t in result["tasks"] if t["message"] and t["points"] < t["max_points"]]:
+        if line := place_of(task, text, skeleton, result["file"].name):
+            beside.setdefault(line, []).append(task)
+    cuts = sorted({each for line in beside for each in (line, line + 1)})
+    parts = []
+    for first, end, given in runs(text, skeleton, cuts):
+        parts.append(listing(text, first, end, given))
+        if tasks := beside.get(first):
+            said = "".join(
+                f"<p><b>{escape(task['id'])}</b> {escape(task['message'])}</p>" for task in tasks
+            )
+            parts.append(f"<aside>{said}</aside>")
+    shown = " open" if beside else ""
+    return (
+        f'<details class="work"{shown}><summary>your program</summary>'
+        f'<div class="code">{"".join(parts)}</div></details>'
     )
 
 
