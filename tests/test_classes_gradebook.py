@@ -460,8 +460,9 @@ def test_statistics_of_tasks():
 
 
 def test_code_stands_beside_its_message_and_the_exercises_text_is_folded():
-    given = "\n".join([f"# text {n}" for n in range(9)] + ["def f():", "    raise NotImplementedError("
-                      '"task 3.1: do")', "def g():", '    raise NotImplementedError("task 3.2: do")'])  # fmt: skip
+    undone = '    raise NotImplementedError("task 3.{}: do")'
+    lines = [f"# text {n}" for n in range(9)]
+    given = "\n".join([*lines, "def f():", undone.format(1), "def g():", undone.format(2)])
     text = given.replace('raise NotImplementedError("task 3.1: do")', "return '<b>'")
     result = {
         "exercise": 3, "title": "T", "points": 0, "max_points": 20, "graded": True, "notes": [],
@@ -472,8 +473,11 @@ def test_code_stands_beside_its_message_and_the_exercises_text_is_folded():
     }  # fmt: skip
     made = feedback("Ada", [result])
     assert "9 lines of the exercise" in made and "<b>'" not in made
-    assert "<i>10</i><span>def f():</span></span></pre><aside><p><b>3.1</b> wrong answer" in made
-    assert made.index("<i>13</i>") < made.index("<b>3.2</b> tiny.py:13 fails")
+    beside = "<aside><p><b>3.1</b> wrong answer</p></aside><div>"
+    assert f'{beside}<pre class="lines"><span><i>10</i><span>def f():' in made
+    fails = made.index("<b>3.2</b> tiny.py:13 fails")
+    assert made.index("<i>12</i>") < fails < made.index("<i>13</i>")
+    assert made.count("<div") == made.count("</div>")
 
 
 OTHER = """

@@ -176,6 +176,7 @@ def _lines(own: dict[tuple[str, ...], set[int]], keys: Iterable[tuple[str, ...]]
 _STYLE = """
 .pair { display: none; }
 .pair:target { display: block; }
+main:has(.pair:target) > :not(.pair) { display: none; }
 .both { display: grid; grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); gap: 1rem;
  margin-top: .6rem; }
 .both h3 { margin: 0 0 .3rem; font-size: 1rem; }

@@ -13,10 +13,10 @@ from string import Template
 from typing import Any
 
 from botschool.grading.declare.exercise import called
-from botschool.grading.report.paper import listing, paper, place_of, runs
+from botschool.grading.report.paper import end_of, listing, paper, place_of, runs
 
-MAX_LINES = 60
-"""Lines to show of what a task printed."""
+MAX_LINES, MOST_BESIDE = 60, 300
+"""Lines to show of what a task printed, and letters of a message beside its line."""
 
 _STYLE = """
 header { display: flex; justify-content: space-between; align-items: end; gap: 1.5rem;
@@ -44,12 +44,12 @@ figure img { max-width: 100%; max-height: 40rem; border: 1px solid var(--line);
 figcaption { color: var(--soft); font-size: .85rem; }
 .work { border-top: 1px solid var(--line); padding-top: .65rem; }
 .code { margin-top: .5rem; }
-.code aside { border-left: .25rem solid var(--none); padding: .1rem .7rem; margin: .2rem 0;
+.code aside { border-left: .25rem solid var(--none); padding: .1rem .7rem; margin: .4rem 0;
  font-size: .85rem; }
 .code aside p { margin: .1rem 0; white-space: pre-wrap; }
-@media (min-width: 52rem) { .code { display: grid; align-content: start;
- grid-template-columns: minmax(0, 5fr) minmax(0, 3fr); } .code > * { grid-column: 1; }
- .code aside { grid-column: 2; grid-row: span 2; margin: 0; } }
+@media (min-width: 52rem) { .code > :not(.beside) { margin-right: 36%; }
+ .beside { display: flex; flex-direction: row-reverse; } .beside > div { width: 64%; }
+ .code aside { width: 36%; margin: 0; } }
 """
 
 _BODY = Template("""<header>
@@ -118,15 +118,21 @@ def _code(result: dict[str, Any]) -> str:
     for task in [t for t in result["tasks"] if t["message"] and t["points"] < t["max_points"]]:
         if line := place_of(task, text, skeleton, result["file"].name):
             beside.setdefault(line, []).append(task)
-    cuts = sorted({each for line in beside for each in (line, line + 1)})
-    parts = []
-    for first, end, given in runs(text, skeleton, cuts):
-        parts.append(listing(text, first, end, given))
+    ends = {line: end_of(text, line) for line in beside}
+    parts, until = [], 0
+    for first, end, given in runs(text, skeleton, beside, {*ends.values()}):
+        parts += ["</div></div>"] if until and first >= until else []
+        until = 0 if first >= until else until
         if tasks := beside.get(first):
             said = "".join(
-                f"<p><b>{escape(task['id'])}</b> {escape(task['message'])}</p>" for task in tasks
+                f"<p><b>{escape(task['id'])}</b> {escape(task['message'][:MOST_BESIDE])}</p>"
+                for task in tasks
             )
-            parts.append(f"<aside>{said}</aside>")
+            parts += ["</div></div>"] if until else []
+            parts.append(f'<div class="beside"><aside>{said}</aside><div>')
+            until = ends[first]
+        parts.append(listing(text, first, end, given))
+    parts += ["</div></div>"] if until else []
     shown = " open" if beside else ""
     return (
         f'<details class="work"{shown}><summary>your program</summary>'

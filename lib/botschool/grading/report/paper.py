@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator
 from html import escape
 
 GENERATOR = "botschool grade-all"
@@ -65,10 +65,13 @@ def paper(title: str, body: str, style: str = "") -> str:
     )
 
 
-def runs(text: str, skeleton: str, cuts: Sequence[int] = ()) -> Iterator[tuple[int, int, bool]]:
+def runs(
+    text: str, skeleton: str, shown: Collection[int] = (), cuts: Collection[int] = ()
+) -> Iterator[tuple[int, int, bool]]:
     """Yield (first line, line after the last, whether the exercise gave them) of a program.
 
-    Lines count from 1. A run ends before each line of `cuts`, which is shown in any case.
+    Lines count from 1. A run ends before each line of `shown`, which counts as the student's, and
+    before each of `cuts`.
     """
     lines = text.splitlines()[:MOST_LINES]
     given = [False] * len(lines)
@@ -76,11 +79,11 @@ def runs(text: str, skeleton: str, cuts: Sequence[int] = ()) -> Iterator[tuple[i
     for block in same.get_matching_blocks():
         if block.size > FOLDED:
             given[block.b : block.b + block.size] = [True] * block.size
-    for cut in cuts:
-        given[cut - 1 : cut] = [False] * len(given[cut - 1 : cut])
+    for line in shown:
+        given[line - 1 : line] = [False] * len(given[line - 1 : line])
     start = 0
     for at in range(1, len(lines) + 1):
-        if at == len(lines) or given[at] != given[start] or at + 1 in cuts:
+        if at == len(lines) or given[at] != given[start] or at + 1 in {*shown, *cuts}:
             yield start + 1, at + 1, given[start]
             start = at
 
@@ -114,6 +117,16 @@ def place_of(task: dict, text: str, skeleton: str, name: str) -> int | None:
     names = re.findall(r"^ *def (\w+)", before, re.MULTILINE)[-1:] if undone else []
     names += re.findall(r"\b(\w+)\(", task["message"])
     for each in names:
-        if found := re.search(rf"^[ \t]*(?:async )?def {re.escape(each)}\b", text, re.MULTILINE):
-            return text.count("\n", 0, found.start()) + 1
+        head = rf"^[ \t]*(?:async )?def {re.escape(each)}\b"
+        if found := [*re.finditer(head, text, re.MULTILINE)]:
+            return text.count("\n", 0, found[-1].start()) + 1  # the last definition counts
     return None
+
+
+def end_of(text: str, line: int) -> int:
+    """Return the line after the function that a line of a program is in."""
+    lines = text.splitlines()
+    for number in range(line + 1, len(lines) + 1):
+        if re.match(r"def |async def |class |@|if |# ?%%", lines[number - 1]):
+            return number
+    return len(lines) + 1
