@@ -63,7 +63,7 @@ def find(course, tmp_path):
         new_folder, wanted = numbered_folders(folder), [Wanted(3, FILE, course)]
         export = read_export(download, wanted, new_folder)
         register = Register(find_submissions(export.people, wanted, course, new_folder), Settings())
-        named = {register.name(i): one for i, one in enumerate(register.submissions)}
+        named = {row.name: row.parts[0] for row in register.rows}
         assert len(named) == len(export.people)
         return named, export
 

@@ -48,7 +48,6 @@ class Register(Members):
     def __init__(self, submissions: list[Submission], settings: Settings) -> None:
         """Match them. Raises BotschoolErrors, with all that is wrong in the settings."""
         super().__init__(settings)
-        self._shown = Counter((one.person.section, one.student) for one in submissions)
         self._enter(submissions, self._number(submissions))
         self.check_names(submissions[0].choices if submissions else ())
         self._join_groups()
@@ -86,7 +85,7 @@ class Register(Members):
 
             def clash(index: int, at: int, those: list[int] = those) -> bool:
                 others = [submissions[each] for each, number in numbers.items() if number == at]
-                return any(_differ(submissions[those[index]], other) for other in others)
+                return any(_both_did(submissions[those[index]], other) for other in others)
 
             at = self._known.add(entries, section or "this download", clash=clash)
             for index, number in zip(those, at, strict=True):
@@ -101,16 +100,11 @@ class Register(Members):
             parts.setdefault(number, []).append(one)
         students = range(len(self.roster.students) if self.roster else 0)
         parts |= {number: [] for number in students if number not in parts}
+        shown = Counter(own[0].student for own in parts.values() if own)
         for number, own in parts.items():
-            row = self.row(number, self._name(own[0]) if own else "")
+            row = self.row(number, _name(own[0], shown) if own else "")
             row.parts = own
             self.rows.append(row)
-
-    def _name(self, one: Submission) -> str:
-        """Return the name of a person who is on no list; people of one name get a number."""
-        numbers = [one.person.ids[each] for each in _NUMBERS if one.person.ids.get(each)]
-        is_shared = self._shown[one.person.section, one.student] > 1 and numbers
-        return f"{one.student} ({numbers[0]})" if is_shared else one.student
 
     def _join_groups(self) -> None:
         """Give each member what the others, or the group by its own name, handed in."""
@@ -210,16 +204,16 @@ class Register(Members):
         return said
 
 
-def _differ(one: Submission, other: Submission) -> bool:
-    """Return whether two submissions hold different work on an exercise."""
-    for number in one.files.keys() & other.files.keys():
-        if one.choices[number].changed and other.choices[number].changed:
-            try:
-                if one.files[number].read_bytes() != other.files[number].read_bytes():
-                    return True
-            except OSError:
-                return True
-    return False
+def _name(one: Submission, shown: Counter) -> str:
+    """Return the name of a person who is on no list; people of one name get a number."""
+    numbers = [one.person.ids[each] for each in _NUMBERS if one.person.ids.get(each)]
+    return f"{one.student} ({numbers[0]})" if shown[one.student] > 1 and numbers else one.student
+
+
+def _both_did(one: Submission, other: Submission) -> bool:
+    """Return whether two submissions hold work on the same exercise."""
+    common = one.files.keys() & other.files.keys()
+    return any(one.choices[each].changed and other.choices[each].changed for each in common)
 
 
 def _is_of(row: Row, group: str) -> bool:

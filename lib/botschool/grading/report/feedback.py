@@ -48,7 +48,8 @@ figcaption { color: var(--soft); font-size: .85rem; }
  font-size: .85rem; }
 .code aside p { margin: .1rem 0; white-space: pre-wrap; }
 @media (min-width: 52rem) { .code > :not(.beside) { margin-right: 36%; }
- .beside { display: flex; flex-direction: row-reverse; } .beside > div { width: 64%; }
+ .beside { display: flex; flex-direction: row-reverse; }
+ .beside > div { width: 64%; background: var(--code); }
  .code aside { width: 36%; margin: 0; } }
 """
 
