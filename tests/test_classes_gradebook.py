@@ -556,17 +556,26 @@ def test_laboratories_are_graded_beside_exercises(course, tmp_path):
     assert "Laboratory 3. At equal numbers" in page and "There are no runs yet" in page
     words = rows_of(output / "words.csv")
     assert [row["text"] for row in words] == ["The spread surprised me."] * 2
-    words[0]["points"] = "8"
+    words[0] |= {"points": "8", "comment": "Say why"}
     with open(output / "words.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, words[0].keys())
         writer.writeheader()
         writer.writerows(words)
     (tmp_path / "changes.csv").write_text("student,exercise,points,reason\nBob,lab3,+2,a talk\n")
-    settings(tmp_path, "weights: {3: 1, lab3: 0.5}\nadjustments: [out/words.csv, changes.csv]\n")
-    assert call("grade-all", str(download), "-o", str(output), cwd=tmp_path)[0] == 0
-    ada, bob, _ = rows_of(output / "grades.csv")
-    assert (ada["laboratory 3"], ada["lab3.words"], ada["total"]) == ("8", "8", "104")
-    assert bob["laboratory 3"] == "2" and bob["total"] == "1"
+    named = "weights: {3: 1, lab3: 0.5}\nadjustments: [out/words.csv, changes.csv]\n"
+    for text in (named, named.replace("out/words.csv, ", "")):  # it counts without being named
+        settings(tmp_path, text)
+        assert call("grade-all", str(download), "-o", str(output), cwd=tmp_path)[0] == 0
+        ada, bob, _ = rows_of(output / "grades.csv")
+        assert (ada["laboratory 3"], ada["lab3.words"], ada["total"]) == ("8", "8", "104")
+        assert bob["laboratory 3"] == "2" and bob["total"] == "1"
+        assert "Say why" in (output / "feedback" / "Ada.html").read_text()
+        again = rows_of(output / "words.csv")
+        assert [row["points"] for row in again] == ["8", ""] and "spread" in again[0]["text"]
+        assert again[0]["comment"] == "Say why" and again[0]["rubric"] == words[0]["rubric"]
+    answer(Place(load_lab(3), download / "Ada" / "work" / "lab03"), {"words": "Now other words."})
+    out = call("grade-all", str(download), "-o", str(output), cwd=tmp_path)[1]
+    assert "Ada has changed lab3.words since you gave 8 points" in out
     assert rows_of(output / "words.csv")[0]["points"] == "8"
     code, _, _ = call("grade-all", str(download), "-e", "lab09", "-o", "new", cwd=tmp_path)
     assert code == 0 and rows_of(tmp_path / "new" / "grades.csv")[0]["laboratory 9"] == "0"

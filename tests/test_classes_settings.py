@@ -143,8 +143,12 @@ def test_settings_without_effect_are_said(course):
 
 
 # --- who is who
-KNOWN = [Student("Kim Lee", "1", "kim@x.org"), Student("Kim Lee", "2", "lee@x.org"),
-         Student("Ada Byron", "3", "ada@x.org", canvas="400"), Student("Li", "", "li@x.org")]  # fmt: skip
+KNOWN = [
+    Student("Kim Lee", "1", "kim@x.org"),
+    Student("Kim Lee", "2", "lee@x.org"),
+    Student("Ada Byron", "3", "ada@x.org", canvas="400"),
+    Student("Li", "", "li@x.org"),
+]
 SAME = {
     "an email": (Student("K. L.", "", "LEE@x.org"), 1),
     "an email, married": (Student("Ada Lovelace", "", "ada@x.org"), 2),
