@@ -1,6 +1,6 @@
 """Make the pictures of docs/instructor.md: a term of a made-up class, graded, and its pages.
 
-    python tools/figures instructor
+    make figures ONLY=instructor
 
 It needs a Chromium (tests/browser.py finds it), and takes some minutes for the grading, once:
 the class and its results stay in results/instructor.
@@ -8,19 +8,22 @@ the class and its results stay in results/instructor.
 
 import csv
 import random
+import re
 import subprocess
 import sys
+import tempfile
+from base64 import b64decode
+from io import BytesIO
 from pathlib import Path
+from urllib.parse import quote
+
+from PIL import Image
+
+from botschool.grading.declare.exercise import folder_of
+from botschool.grading.declare.mistakes import read_cases
 
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "tests"))
-
-from browser import Browser  # noqa: E402
-from exports import saved, zipped  # noqa: E402
-
-from botschool.grading.declare.exercise import folder_of  # noqa: E402
-from botschool.grading.declare.mistakes import read_cases  # noqa: E402
-
 HOME = ROOT / "results" / "instructor"
 IMAGES = ROOT / "docs" / "images"
 EXERCISES = (2, 3, 6)
@@ -41,11 +44,14 @@ def work(number, at, draw):
         text = case.of(text)
     if at == 9 and number == 3:
         text = text.replace("return", "retrun", 1)
+    text = re.sub(r"^ *### (BEGIN|END) SOLUTION.*\n", "", text, flags=re.MULTILINE)
     return {path.name: text.encode()}
 
 
 def make():
     """Write the class: downloads and worksheets of Moodle, with new numbers in each, settings."""
+    from exports import saved
+
     HOME.mkdir(parents=True, exist_ok=True)
     draw = random.Random(1)
     for week, number in enumerate(EXERCISES):
@@ -93,10 +99,41 @@ def grade():
     """Grade the term."""
     for number in EXERCISES:
         name = f"ex{number:02}"
-        botschool("grade-all", f"{name}.zip", "-e", number, "--gradebook", f"{name}.csv", "-o", name)
-    botschool("gradebook", *(f"ex{n:02}" for n in EXERCISES), "-o", "term")
+        tables = ("--gradebook", f"{name}.csv")
+        botschool("grade-all", f"{name}.zip", "-e", number, *tables, "-o", name)
+    botschool("gradebook", *(f"ex{number:02}" for number in EXERCISES), "-o", "term")
 
 
-if __name__ == "__main__":
+def photograph():
+    """Take the pictures: a part of a page, its size, and the file."""
+    from browser import Browser
+
+    feedback = HOME / "ex02/feedback/Jun Sato.html"
+    shots = (
+        (HOME / "ex02/class.html", "", 900, 560, 0, "instructor_class.png"),
+        (HOME / "ex02/class.html", "", 390, 640, 0, "instructor_phone.png"),
+        (feedback, "document.querySelector('.beside')", 1000, 330, 60, "instructor_feedback.png"),
+        (HOME / "ex02/similar.html", "document.querySelector('.pair:target')", 1000, 420, 0,
+         "instructor_similar.png"),
+    )  # fmt: skip
+    with tempfile.TemporaryDirectory() as profile:
+        browser = Browser(profile)
+        for path, element, width, height, above, name in shots:
+            browser.resize(width, height)
+            browser.call("Page.navigate", url="about:blank")
+            place = "#e2p5" if "similar" in name else ""
+            browser.call("Page.navigate", url=f"file://{quote(str(path))}{place}")
+            browser.wait("document.readyState === 'complete' && location.protocol === 'file:'")
+            top = browser.run(f"{element}.getBoundingClientRect().top + scrollY") if element else 0
+            clip = {"x": 0, "y": max(0, top - above), "width": width, "height": height, "scale": 1}
+            made = browser.call("Page.captureScreenshot", clip=clip, captureBeyondViewport=True)
+            picture = Image.open(BytesIO(b64decode(made["data"]))).convert("RGB")
+            picture.quantize(32, dither=Image.Dither.NONE).save(IMAGES / name, optimize=True)
+        browser.close()
+
+
+def draw():
+    """Make the class, grade it, and take the pictures."""
     make()
     grade()
+    photograph()
