@@ -14,6 +14,7 @@ from botschool.grading.classes.identity import Student, letters
 from botschool.grading.classes.members import Members, Row, Settings
 from botschool.grading.classes.people import Person
 from botschool.grading.classes.policy import moodle_moment
+from botschool.grading.classes.rules import tidy
 from botschool.grading.classes.times import told_by
 from botschool.grading.classes.wall import Broken, walled
 from botschool.grading.declare.exercise import Number, called
@@ -169,11 +170,11 @@ class Register(Members):
     def finish(self, row: Row) -> None:
         """Compute a row's total."""
         if all(result["graded"] for result in row.results):
-            row.total = self.policy.weighed(row.results)[0]
+            row.total = tidy(self.policy.weighed(row.results)[0])
 
     def maximum(self) -> float:
         """Return the most that a total can be."""
-        return self.policy.weighed(self.rows[0].results)[1]
+        return tidy(self.policy.weighed(self.rows[0].results)[1])
 
     def without_effect(self, asked: list[Number], known: Collection[Number]) -> list[str]:
         """Return sentences on settings that cannot be applied.

@@ -37,15 +37,6 @@ class Roster:
                 return found[0]
         return None
 
-    def find_student(self, student: Student) -> Student | None:
-        """Return the row of this table for a student of another one."""
-        if student in self.students:
-            return student
-        for key in (student.mail, student.id, student.user, student.name):
-            if key and (found := self.find(key)):
-                return found
-        return None
-
     def match(self, person: Person) -> Student | None:
         """Return the student who handed this in; None if there is none or more than one."""
         numbers = {"moodle": "participant", "canvas": "user"}

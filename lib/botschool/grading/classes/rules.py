@@ -51,7 +51,7 @@ class Adjustment:
 
 @dataclass
 class Policy:
-    """A class's settings; keys of people are those of roster.words or student ids."""
+    """A class's settings; keys of people are words of Student.called."""
 
     roster: Path | None = None
     due: dict[Number, datetime] = field(default_factory=dict)
@@ -83,9 +83,8 @@ class Policy:
         """Return (person, exercise, rule) of the rules for some exercises."""
         found = []
         for name, values in rules.items():
-            pairs = (
-                values.items() if isinstance(values, dict) else [(v.exercise, v) for v in values]
-            )
+            is_list = isinstance(values, list)
+            pairs = [(each.exercise, each) for each in values] if is_list else values.items()
             found += [(name, key, value) for key, value in pairs if key in numbers]
         return found
 
@@ -153,18 +152,13 @@ class Policy:
     def weighed(self, results: Iterable[dict[str, Any]]) -> tuple[float, float]:
         """Return the weighted sums of points and of their maxima."""
         weighed = [(self.weight(r["exercise"]), r["points"], r["max_points"]) for r in results]
-        return (
-            tidy(sum(weight * points for weight, points, _ in weighed)),
-            tidy(sum(weight * most for weight, _, most in weighed)),
-        )
+        return sum(w * points for w, points, _ in weighed), sum(w * most for w, _, most in weighed)
 
     def of_term(
-        self, points: float, most: float, names: list[str]
+        self, results: Iterable[dict[str, Any]], names: list[str]
     ) -> tuple[float, float, list[str]]:
-        """Return the term's total from the weighted sums, its maximum, and sentences.
-
-        names: as returned by Student.called.
-        """
+        """Return the term's total, its maximum, and sentences; names: as in `apply`."""
+        points, most = self.weighed(results)
         if self.total is not None:
             points, most = points * self.total / most if most else 0.0, self.total
         whole = {"exercise": TOTAL, "graded": True, "tasks": []}

@@ -27,7 +27,10 @@ from botschool.grading.report.paper import GENERATOR
 from botschool.output import save_bytes
 
 RECORD, TABLE = "grades.json", "gradebook.csv"
-_DAMAGED = "{} is damaged: grade again, with the same -o."
+_EMPTY = {
+    "points": 0.0, "graded": False, "handed in": False, "notes": [], "problem": ""
+}  # fmt: skip
+"""A result of somebody who handed in nothing."""
 
 
 @dataclass
@@ -38,10 +41,12 @@ class Output:
     settings: str
     """The path of its class.yaml; "" for none."""
     rules: str
-    exercises: dict[Number, dict[str, Any]]
-    """Each exercise with its title and its maximum."""
     people: list[tuple[Student, str, dict[Number, dict[str, Any]]]]
     """Each person, the name to show, and the result of each exercise."""
+
+    @property
+    def numbers(self) -> set[Number]:
+        return {number for _, _, results in self.people for number in results}
 
 
 def record(rows: list[Row], policy: Policy, rules: str) -> bytes:
@@ -70,16 +75,10 @@ def read_output(folder: Path) -> Output:
     try:
         made = json.loads(path.read_bytes())
         people = []
-        exercises: dict[Number, dict[str, Any]] = {}
         for person in made["people"]:
-            results = {result["exercise"]: result for result in person["results"]}
-            for number, result in results.items():
-                exercises[number] = {
-                    "title": str(result["title"]), "max_points": float(result["max_points"])
-                }  # fmt: skip
-                result["points"] = float(result["points"])
+            results = {result["exercise"]: _EMPTY | result for result in person["results"]}
             people.append((_student(person["about"]), str(person["name"]), results))
-        return Output(folder, str(made["class"]), str(made["rules"]), exercises, people)
+        return Output(folder, str(made["class"]), str(made["rules"]), people)
     except FileNotFoundError:
         raise BotschoolError(
             f"{folder} holds no {RECORD}: name a folder that grade-all has written, or grade again."
@@ -87,14 +86,11 @@ def read_output(folder: Path) -> Output:
     except OSError as error:
         raise BotschoolError(f"{path} cannot be read ({error.strerror}).") from None
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
-        raise BotschoolError(_DAMAGED.format(path)) from None
+        raise BotschoolError(f"{path} is damaged: grade again, with the same -o.") from None
 
 
 def _student(about: Mapping[str, Any]) -> Student:
-    again = tuple(_student(each) for each in about["again"])
-    return Student(
-        **{**{key: str(value) for key, value in about.items()}, "row": 0, "again": again}
-    )
+    return Student(**{**about, "again": tuple(map(_student, about["again"]))})
 
 
 class Term(Members):
@@ -105,7 +101,12 @@ class Term(Members):
         super().__init__(settings)
         self.maximum = 0.0
         """The most that a total can be."""
-        self.exercises = {key: each for one in outputs for key, each in one.exercises.items()}
+        self.exercises = {
+            number: result | _EMPTY
+            for output in outputs
+            for _, _, results in output.people
+            for number, result in results.items()
+        }
         numbered = itertools.count(1)
         found: dict[int, list[dict[Number, dict[str, Any]]]] = {}
         shown: dict[int, str] = {}
@@ -133,11 +134,10 @@ class Term(Members):
     def _best(self, number: Number, results: list[dict[Number, dict[str, Any]]]) -> dict[str, Any]:
         """Return the best result of an exercise; one without points for who handed in nothing."""
         own = [each[number] for each in results if number in each]
-        nothing = {"exercise": number, "points": 0.0, "graded": False, "notes": [], "problem": ""}
         made = [each for each in own if each["handed in"] or each["graded"]]
-        best = max(made, key=lambda each: (each["graded"], each["points"]), default=None)
-        if best is None:
-            return nothing | self.exercises[number] | {"handed in": False}
+        if not made:
+            return self.exercises[number]
+        best = max(made, key=lambda each: (each["graded"], each["points"]))
         if sum(each["handed in"] for each in made) > 1:
             note = f"In {len(made)} outputs: the better one counts."
             best = best | {"notes": [*best["notes"], note]}
@@ -145,8 +145,7 @@ class Term(Members):
 
     def finish(self, row: Row) -> None:
         """Compute a row's total, in which nothing counts 0; None if a submission is not graded."""
-        weighed = self.policy.weighed(row.results)
-        total, self.maximum, row.said = self.policy.of_term(*weighed, row.keys)
+        total, self.maximum, row.said = self.policy.of_term(row.results, row.keys)
         there = [result for result in row.results if result["handed in"] or result["graded"]]
         if all(result["graded"] for result in there) and (there or row.said):
             row.total = total
@@ -195,7 +194,7 @@ def say_term(console: Console, term: Term, outputs: list[Output]) -> bool:
     if ungraded:
         lines.append(f"Not graded, so without a total: {listed(ungraded)}.")
     for one in outputs:
-        if one.rules != term.policy.digest(one.exercises):
+        if one.rules != term.policy.digest(one.numbers):
             lines.append(
                 f"{one.folder} was graded with other settings than the class has now: grade it "
                 "again."
