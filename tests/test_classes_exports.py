@@ -563,10 +563,16 @@ def test_a_class_by_the_command(course, tmp_path):
 def test_the_table_says_that_a_program_is_broken(course, tmp_path):
     files = {f"ada/{FILE}": SOLUTION.encode() + b"x = \xe2\x80\x9cquoted\xe2\x80\x9d\n"}
     top = written(tmp_path / "class", files | {f"bob/{FILE}": SOLUTION.encode() + b"\x1a"})
-    assert call("grade-all", top, "-e", "3", "-o", tmp_path / "out")[0] == 0
-    ada, bob = (tmp_path / "out" / "grades.csv").read_text(encoding="utf-8-sig").split("\n")[1:3]
-    assert "Your file is not Python yet." in ada
-    assert bob.startswith("bob,100,") and "Invisible characters" in bob
+    for rule, points in (
+        ("everything", 0),
+        ("its task", 100),
+    ):  # it costs nothing: no function is cut
+        (tmp_path / "class.yaml").write_text(f"syntax: {rule}\n")
+        assert call("grade-all", top, "-e", "3", "-o", tmp_path / "out")[0] == 0
+        table = (tmp_path / "out" / "grades.csv").read_text(encoding="utf-8-sig")
+        ada, bob = table.split("\n")[1:3]
+        assert "Your file is not Python yet." in ada and ada.startswith(f"ada,{points},")
+        assert bob.startswith("bob,100,") and "Invisible characters" in bob
 
 
 def test_one_submission_by_the_command(course, tmp_path):

@@ -214,6 +214,7 @@ def test_the_late_rule():
         ("due: [", "is not valid YAML"),
         ("adjustments: none.csv", "cannot be read"),
         ("weights: 5", "under 'weights'"),
+        ("syntax: 5", "write 'its task' or 'everything'"),
         ("- 5", "holds no settings"),
     ],
 )

@@ -19,7 +19,7 @@ from botschool.grading.declare.trust import trust
 from botschool.grading.declare.values import apart, kind, pasted, show
 from botschool.grading.judge.known import VARIED
 from botschool.grading.judge.looking import same
-from botschool.grading.judge.submission import grade
+from botschool.grading.judge.submission import EVERYTHING, SYNTAX, grade
 from tiny_course import FILE, SOLUTION, make_course, submit
 
 
@@ -83,13 +83,45 @@ def test_what_keeps_a_file_from_loading(graded, line, words, monkeypatch):
     assert words in graded(line).banner
 
 
-def test_a_part_that_is_no_python_costs_what_stands_there(graded):
-    result = graded(
-        SOLUTION.replace("def total", "# %%\ndef total").replace("float(np", "float((np")
+HEAD = "def double(numbers: np.ndarray) -> np.ndarray:"
+LAST = "    return twice_as_large_as_before"
+BROKEN = {
+    "bracket": ("float(np", "float((np", [60, 0], "SyntaxError: .*never closed"),
+    "colon": (HEAD, HEAD[:-1], [0, 40], ":6 is not Python .SyntaxError: expected ':'"),
+    "text": (LAST, f"    x = '''one\n\n{LAST}", [0, 40], "unterminated triple-quoted"),
+    "margin": (LAST, f"    x = (2\nof x\n{LAST}", [0, 40], ":11 is not Python"),
+    "indentation": ("    return float", "  x = 1\n    return float", [60, 0], "IndentationError"),
+    "loop": (LAST, f"    break\n{LAST}", [0, 40], "'break' outside loop"),
+    "decorator": (HEAD, f"@staticmethod(\n{HEAD}", [60, 40], ""),
+    "line between": ("def total", ">>> double(2)\ndef total", [60, 40], ""),
+}
+
+
+@pytest.mark.parametrize("cells", [False, True])
+@pytest.mark.parametrize(("right", "wrong", "points", "said"), BROKEN.values(), ids=BROKEN)
+def test_a_syntax_error_costs_the_function_where_it_stands(
+    graded, monkeypatch, right, wrong, points, said, cells
+):
+    assert right in SOLUTION
+    text = SOLUTION.replace(right, wrong)
+    result = graded(text.replace("def total", "# %%\ndef total") if cells else text)
+    assert [task.points for task in result.tasks] == points
+    assert result.banner.startswith("Your file is not Python yet. Mend this first:\n  tiny.py:")
+    if said:
+        message = result.tasks[points.index(0)].message
+        assert re.search(f"cannot be read: tiny.py.*{said}.*: mend this line first", message)
+    monkeypatch.setenv(SYNTAX, EVERYTHING)
+    strict = graded(text)
+    assert strict.points == 0 and "tiny.py:" in strict.banner
+
+
+def test_beside_a_syntax_error_statements_of_several_lines_are_kept(graded):
+    above = (
+        "TABLE = [\n2,\n]\ntry:\n    import nothing\nexcept ImportError:\n    F = TABLE[0]\n\n\n"
     )
-    assert [task.points for task in result.tasks] == [60, 0]
-    assert re.search(r"part from line \d+ to \d+ is not Python: left out \(total\)", result.banner)
-    assert result.tasks[1].message.startswith("total cannot be read: the part from line")
+    above += "@(\nlambda function: function\n)\n"
+    text = SOLUTION.replace("def double", above + "def double").replace(" 2 *", " F *")
+    assert [task.points for task in graded(text + "\n\ndef broken(\n").tasks] == [60, 40]
 
 
 # --- functions

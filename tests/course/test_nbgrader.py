@@ -231,7 +231,7 @@ def test_definitions_keep_what_functions_use_and_nothing_that_runs():
         "class C:\n    rate = RATE\nfor _ in range(10**9):\n    f(1)",
     ]
     script = definitions(cells)
-    assert script.left_out == [3]
+    assert script.left_out == [[3, 1, 4, "SyntaxError: invalid syntax", []]]
     names = {}
     exec(script.text, names)
     assert names["f"](3) == 3.0 and names["C"].rate == 0.5

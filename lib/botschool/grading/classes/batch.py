@@ -35,7 +35,7 @@ from botschool.grading.declare.exercise import (
 )
 from botschool.grading.declare.mistakes import case_files
 from botschool.grading.declare.secret import DEFAULT, VARIABLE
-from botschool.grading.judge.submission import Result, grade
+from botschool.grading.judge.submission import SYNTAX, Result, grade
 from botschool.grading.run.confined import MachineFault, Unread, content_digest, machine_fault
 from botschool.grading.run.temporary import temporary_folder
 from botschool.output import save_bytes
@@ -253,7 +253,8 @@ class Grades:
     def _key(self, job: Job) -> str:
         digest = content_digest(job.file)
         digest.update(f"{self._secret}\n{_versions(self._root, job.number)}\n".encode())
-        digest.update(f"{job.file.name} {job.tasks}".encode(errors="surrogateescape"))
+        rule = os.environ.get(SYNTAX, "")
+        digest.update(f"{job.file.name} {job.tasks} {rule}".encode(errors="surrogateescape"))
         return digest.hexdigest()
 
 

@@ -23,6 +23,7 @@ from botschool.grading.classes.statistics import by_task, hardest
 from botschool.grading.classes.term import TABLE as TERM
 from botschool.grading.classes.term import Term, read_output, say_term, write_term
 from botschool.grading.declare.exercise import Number, course_root, secret_for_others, selected
+from botschool.grading.judge.submission import SYNTAX
 from botschool.grading.report.screen import counting, say_missing
 from botschool.grading.run.confined import close_class
 from botschool.terminal import exits_on_signals
@@ -73,6 +74,7 @@ def grade_all_command(
     asked, labs = _asked(exercise, root, laboratories)
     console = Console(highlight=False)
     known = _settings(folder.absolute().parent, roster, gradebook, column, settings)
+    os.environ[SYNTAX] = known.policy.syntax
     secret, said = secret_for_others(root)
     close_class(folder, output)
     with counting("Grading", console) as (start, step):

@@ -18,6 +18,7 @@ from botschool.grading.classes.rules import TOTAL, Adjustment, LateRule, Policy
 from botschool.grading.classes.tables import Table, read_table
 from botschool.grading.classes.texts import is_larger
 from botschool.grading.declare.exercise import Number
+from botschool.grading.judge.submission import EVERYTHING
 
 _LATE = re.compile(
     r"(?P<off>\d+(?:\.\d+)?)\s*(?:points?\s*)?(?:/|per)\s*(?:started\s*)?(?P<unit>day|hour|week)"
@@ -29,7 +30,7 @@ MOST_VALUES, MOST_POINTS = 100_000, 1e6
 T = TypeVar("T")
 _KEYS = (
     "roster", "due", "late", "extensions", "adjustments", "submitted", "groups", "weights", "total",
-    "bonus",
+    "bonus", "syntax",
 )  # fmt: skip
 
 
@@ -191,6 +192,13 @@ class _Reader:
     def bonus(self, value: Any) -> bool:
         if not isinstance(value, bool):
             raise BotschoolError(f"'bonus: {value}' is neither yes nor no: write 'bonus: yes'.")
+        return value
+
+    def syntax(self, value: Any) -> str:
+        if value not in ("its task", EVERYTHING):
+            raise BotschoolError(
+                f"'syntax: {value}' is not a rule: write 'its task' or '{EVERYTHING}'."
+            )
         return value
 
     def adjustments(self, value: Any) -> dict[str, list[Adjustment]]:

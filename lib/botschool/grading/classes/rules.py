@@ -67,6 +67,8 @@ class Policy:
     """The points of a total in which nothing is missing; None for the weighted sum."""
     bonus: bool = False
     """Whether points above the maximum count."""
+    syntax: str = ""
+    """What a syntax error costs: EVERYTHING, else only what stands there."""
     path: Path | None = None
     folder: Path | None = None
     """The class's, in which the table of doubtful people is."""
@@ -100,7 +102,7 @@ class Policy:
         people = (self.extensions, self.adjustments, self.submitted)
         own = [sorted(map(str, self._own(each, wanted))) for each in people]
         due = sorted((str(k), str(v)) for k, v in self.due.items() if k in wanted)
-        told = repr((due, self.late, own, sorted(self.groups.items(), key=str), self.bonus))
+        told = repr((due, self.late, own, sorted(self.groups.items(), key=str), self.bonus, self.syntax))
         return hashlib.sha256(told.encode()).hexdigest()[:16]
 
     def has_deadline(self, number: Number) -> bool:

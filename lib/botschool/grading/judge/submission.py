@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import shutil
 import tempfile
@@ -11,14 +12,14 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from botschool.grading.declare.checks import Wrong
+from botschool.grading.declare.checks import Wrong, plain
 from botschool.grading.declare.exercise import Exercise, Task, cannot_be_graded
 from botschool.grading.declare.references import functions_of, pruned
 from botschool.grading.judge.judging import TaskResult, grade_task, tried_twice
 from botschool.grading.judge.known import TOLD, VARIED
 from botschool.grading.run.cells import Script, Unreadable, gives_builtins, scripts
 from botschool.grading.run.confined import content_digest, fork_server, submission_files
-from botschool.grading.run.failures import Origin
+from botschool.grading.run.failures import Origin, marked
 from botschool.grading.run.notebooks import code_cells, other_cells
 from botschool.grading.run.ours import ours_of
 from botschool.grading.run.student import Student
@@ -33,6 +34,8 @@ _DEFINITION = re.compile(r"^(async def|def|class)\b", re.MULTILINE)
 _NAME = re.compile(r"^[ \t]*(?:async[ \t]+def|def|class)[ \t]+(\w+)", re.MULTILINE)
 _WORDS = ("task", "does", "solution", "its"), ("tasks", "do", "solutions", "their")
 _NOT_GRADED = "Not graded: mend the file first, as said above."
+SYNTAX, EVERYTHING = "BOTSCHOOL_SYNTAX_ERROR", "everything"
+"""The environment variable that says what a syntax error costs, else only what stands there."""
 
 
 @dataclass
@@ -264,19 +267,20 @@ class Submission:
         self.banner = "\n".join(filter(None, [banner, self.banner]))
         if defined is None:
             _, defined = scripts(self._cells())
-        if not _DEFINITION.search(defined.text):
+        parts = self._sources if self._sources is not None else _CELL.split(self._text())
+        broken = [self._not_python(parts, *each) for each in defined.left_out]
+        if broken:
+            what = "Your file" if self._sources is None else "The notebook"
+            self.banner = "\n".join([f"{what} is not Python yet. Mend this first:", *broken])
+        strict = broken and os.environ.get(SYNTAX) == EVERYTHING
+        if strict or not _DEFINITION.search(defined.text):
             raise Wrong(_NOT_GRADED)
         self._write(defined)
         self.banner += (
             "\nUntil then, only functions, classes and imports count, with the names that they use."
         )
-        parts = self._sources if self._sources is not None else _CELL.split(self._text())
-        for number in defined.left_out:
-            part = self._cell(number)
-            names = _NAME.findall(parts[number - 1])
-            lost = f" ({', '.join(names)})" if names else ""
-            self.banner += f"\n{part[:1].upper()}{part[1:]} is not Python: left out{lost}."
-            self._lost |= dict.fromkeys(names, f"{part} is not Python (see above)")
+        if lost := [name for *_, names in defined.left_out for name in names]:
+            self.banner += f"\nLeft out: {', '.join(lost)}."
 
     def _find_other_cells(self) -> None:
         """Keep the names of functions that stand in cells without code."""
@@ -287,13 +291,20 @@ class Submission:
     def _undone(self, place: list) -> str:
         """Return some lines on a name of Python that has been given another value."""
         number, line, name = place
-        where = f"line {line} of {self._cell(number)}"
-        if self._sources is None:
-            where = f"{self._given.name}:{self._starts[number - 1] + line}"
         return (
             f"You give Python's name {name} another value, but your functions need Python's own.\n"
-            f"  {where}: choose another name. Here, this line is left out."
+            f"  {self._at(number, line)}: choose another name. Here, this line is left out."
         )
+
+    def _not_python(
+        self, parts: list[str], number: int, line: int, column: int, error: str, names: list[str]
+    ) -> str:
+        """Return some lines on a statement that is left out; keep the names of its functions."""
+        lines, where = parts[number - 1].splitlines(), self._at(number, line)
+        text = lines[line - 1] if line <= len(lines) else ""
+        why = f"{where} is not Python ({error}): mend this line first"
+        self._lost |= dict.fromkeys(names, why)
+        return f"{marked(where, plain(text.expandtabs(4)), column)}\n  {error}"
 
     def _gives_builtins(self) -> bool:
         with suppress(OSError):
@@ -328,18 +339,15 @@ class Submission:
         """Return the place of a script's line: in the file, or in a cell of the notebook."""
         if not 1 <= line <= len(self._script.places):
             return f"line {line}"
-        number, inside = self._script.places[line - 1]
-        if self._sources is None:
-            return f"{self._given.name}:{self._starts[number - 1] + inside}"
-        return f"line {inside} of {self._cell(number)}"
+        return self._at(*self._script.places[line - 1])
 
-    def _cell(self, number: int) -> str:
+    def _at(self, number: int, line: int) -> str:
+        """Return words for a line of a part: of the file, or of a notebook's cell."""
         if self._sources is None:
-            first, last = self._starts[number - 1 : number + 1]
-            return f"the part from line {first + 1} to {last}"
+            return f"{self._given.name}:{self._starts[number - 1] + line}"
         lines = [line.strip() for line in self._sources[number - 1].splitlines() if line.strip()]
         shown = lines[0] if lines else ""
-        return f"the cell '{shown[:40]}{'...' if len(shown) > 40 else ''}'"
+        return f"line {line} of the cell '{shown[:40]}{'...' if len(shown) > 40 else ''}'"
 
 
 def _with_the_cause(lines: list[str], own: str, again: TaskResult) -> str:

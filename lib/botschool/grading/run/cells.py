@@ -21,6 +21,10 @@ MAX_CODE = 2**20
 """Characters of code in a notebook."""
 MAX_MAGICS = 100
 """IPython lines in a cell."""
+MAX_JOINED = 30
+"""Lines without indentation in one statement, in a cell that is not Python."""
+_STATEMENT = re.compile(r"^(?=[^\s#)\]}])(?!(?:else|elif|except|finally)\b)", re.MULTILINE)
+_DEFINED = re.compile(r"^[ \t]*(?:async[ \t]+def|def|class)[ \t]+(\w+)", re.MULTILINE)
 _TEST = re.compile(
     r"^([ \t]*)(from botschool\.grading\.notebook import grade_cell|grade_cell\(.*\))[ \t]*$",
     re.MULTILINE,
@@ -57,8 +61,9 @@ class Script:
     text: str = ""
     places: list[list[int]] = field(default_factory=list)
     """For each line: the number of its code cell, and the line within the cell; both from 1."""
-    left_out: list[int] = field(default_factory=list)
-    """Numbers of the code cells that are not Python."""
+    left_out: list[list] = field(default_factory=list)
+    """For each statement that is not Python: number of the cell, line in the cell, column, what
+    Python says, and names of the functions and classes in it."""
     undone: list[list] = field(default_factory=list)
     """Number of the cell, line in the cell, and name: each assignment to a name of Python that is
     left out, since functions use the name as Python's."""
@@ -98,8 +103,9 @@ def gives_builtins(text: str) -> bool:
 def whole(sources: list[str]) -> Script:
     """Return all code of the cells, in order, but for values given to names of Python."""
     script, cells = _read(sources)
+    broken = {number for number, *_ in script.left_out}
     for number, source in enumerate(sources, 1):
-        text, body = cells.get(number) or (plain_python(source), [])
+        text, body = (plain_python(source), []) if number in broken else cells[number]
         lines = [line for cell, line, _ in script.undone if cell == number]
         script.add(number, _replaced(text, [(n, "pass") for n in body if n.lineno in lines]))
     script.left_out.clear()
@@ -109,7 +115,7 @@ def whole(sources: list[str]) -> Script:
 def definitions(sources: list[str]) -> Script:
     """Return the imports, functions and classes of the cells, and the globals that these use.
 
-    Code that only runs (calls, loops, pictures) is left out, and so are cells that are not Python.
+    Code that only runs (calls, loops, pictures) and statements that are not Python are left out.
     An import that fails costs only what uses its names.
     """
     script, cells = _read(sources)
@@ -125,16 +131,16 @@ def definitions(sources: list[str]) -> Script:
 
 
 def _read(sources: list[str]) -> tuple[Script, dict[int, tuple[str, list[ast.stmt]]]]:
-    """Return a Script without text, and (text, statements) of each cell that is Python."""
+    """Return a Script without text, and (text, statements) of each cell."""
     script = Script()
     cells: dict[int, tuple[str, list[ast.stmt]]] = {}
     for number, source in enumerate(sources, 1):
         text = plain_python(source)
-        tree = _parsed(text)
-        if tree is None:
-            script.left_out.append(number)
-        else:
-            cells[number] = text, tree.body
+        if isinstance(tree := _parsed(text), SyntaxError):
+            text, broken = _without_errors(text)
+            script.left_out += [[number, *each] for each in broken]
+            tree = ast.parse(text)
+        cells[number] = text, tree.body
     needed = _called([node for _, body in cells.values() for node in body]) & _BUILTINS
     script.undone = [
         [number, node.lineno, sorted(names)[0]]
@@ -207,11 +213,41 @@ def plain_python(source: str) -> str:
     return text
 
 
-def _parsed(text: str) -> ast.Module | None:
+def _parsed(text: str) -> ast.Module | SyntaxError:
     try:
+        compile(text, "<cell>", "exec", dont_inherit=True)
         return ast.parse(text)
-    except (SyntaxError, ValueError):
-        return None
+    except SyntaxError as error:
+        return error
+    except ValueError as error:
+        return SyntaxError(str(error))
+
+
+def _without_errors(text: str) -> tuple[str, list[list]]:
+    """Return a text with empty lines in place of the top-level statements that are not Python.
+
+    Also return line, column, what Python says, and names of each of these.
+    """
+    pieces, line = _STATEMENT.split(text.replace("\0", "")), 0
+    made, broken, cut = "", [], False
+    while pieces:
+        many = min(len(pieces), MAX_JOINED)
+        tries = (plain_python("".join(pieces[: n + 1])) for n in range(many))
+        found = next(((n, each) for n, each in enumerate(tries, 1) if _is_python(each)), None)
+        taken = "".join(pieces[: found[0] if found else 1])
+        names = _DEFINED.findall(taken)
+        if not found and (names or not cut):  # lines at the margin after it belong to it
+            error = _parsed(taken)
+            said = f"{type(error).__name__}: {error.msg.partition(' (detected at ')[0]}"
+            broken.append([line + (error.lineno or 1), error.offset or 0, said, names])
+        made, cut = made + (found[1] if found else "\n" * taken.count("\n")), not found
+        line += taken.count("\n")
+        del pieces[: found[0] if found else 1]
+    return made, broken
+
+
+def _is_python(text: str) -> bool:
+    return isinstance(_parsed(text), ast.Module)
 
 
 def _kept(body: list[ast.stmt]) -> set[int]:

@@ -204,7 +204,7 @@ class Unloadable(Wrong):
         colon = f": {text}" if text else ""
         file, line = answer.get("file"), answer.get("line")
         known = isinstance(file, str) and type(line) is int
-        where = f"\n{_marked(file, line, answer.get('column'), source)}" if known else ""
+        where = f"\n{marked(*source.at(file, line), answer.get('column'))}" if known else ""
         syntax = name in ("SyntaxError", "IndentationError", "TabError")
         what = "Your file is not Python yet" if syntax else "Your file cannot be loaded"
         self.banner = f"{what}. Mend this first:{where}\n  {name}{colon}{_suggested(near, text)}"
@@ -212,9 +212,8 @@ class Unloadable(Wrong):
         super().__init__(f"Your file cannot be loaded: {name}{at}{colon}")
 
 
-def _marked(file: str, line: int, column: Any, source: SourceLines) -> str:
-    """Return a line with a caret below it."""
-    where, text = source.at(file, line)
+def marked(where: str, text: str, column: Any) -> str:
+    """Return a place and its line, with a caret below it."""
     shown = f"  {where}\n    {text.strip()[:MAX_LINE]}"
     if type(column) is not int or column < 1:
         return shown
