@@ -1,6 +1,7 @@
 """What exercises import keeps its names; a new exercise is two folders and nothing else."""
 
 import ast
+import contextlib
 import re
 import shutil
 import subprocess
@@ -143,7 +144,7 @@ def test_an_exercise_without_its_packages_says_what_to_install(sixteen, monkeypa
         BotschoolError, match=r"needs stable-baselines3.*botschool start 13.*\[rl\]"
     ):
         exercise.require()
-    job = batch.Job(13, submission_file(13, "solutions", sixteen[0]))
+    job = batch.Job(16, submission_file(16, "solutions", sixteen[0]))
     result = batch.Grades(sixteen[0]).of([job], 1)[job]
     assert result["points"] == 0 and "needs stable-baselines3" in result["problem"]
     load_exercise(1, sixteen[0]).require()
@@ -274,6 +275,16 @@ def test_a_task_without_its_packages_is_not_graded(monkeypatch, capsys):
         exercise.require_some([exercise.find("10.10")])
     exercise.require_some(exercise.tasks)
     with pytest.raises(BotschoolError, match="torch"):
+        exercise.require()
+
+
+@pytest.mark.parametrize(("number", "picture"), [(5, "box2d"), (13, "rl"), (14, "")])
+def test_an_exercise_is_graded_without_what_only_its_picture_needs(number, picture, monkeypatch):
+    monkeypatch.setattr(declared, "missing_packages", list)
+    exercise = load_exercise(number, ROOT)
+    exercise.require(exercise.tasks)
+    assert not any(map(declared.cannot_be_graded, exercise.tasks))
+    with pytest.raises(BotschoolError, match=picture) if picture else contextlib.nullcontext():
         exercise.require()
 
 

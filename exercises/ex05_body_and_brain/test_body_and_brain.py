@@ -18,6 +18,7 @@ exercise = Exercise(
     file="body_and_brain.py",
     imports=("botschool.course", "botschool.evolution.run"),
     extras=("box2d",),
+    packages=(),
 )
 exercise.captions = {
     "my_walker.png": (
@@ -75,7 +76,7 @@ def bodies(rng, spread=0.6):
 GENOTYPE = np.load(genotype_file("bodybrainS1.npy"))
 WALKER = GENOTYPE[-BODY - 2 * OBSERVATIONS : -2 * OBSERVATIONS]
 """The body of the first pre-evolved walker."""
-size = exercise.task("5.1", "Sizes", packages=(), refused=TOOL)
+size = exercise.task("5.1", "Sizes", refused=TOOL)
 size.draws(
     "Lengths, thicknesses and masses of a walker's eleven segments, the torso first.",
     "segment", "", kind="bars", call=("sizes", WALKER),
@@ -98,7 +99,7 @@ def mass_of_each_segment(rng):
 
 
 # ------------------------------------------------------------------- 5.2
-turning = exercise.task("5.2", "Angles", packages=(), refused=TOOL)
+turning = exercise.task("5.2", "Angles", refused=TOOL)
 turning.draws(
     "A walker's angles at rest, and how far each of its ten joints turns to both sides.",
     "joint", "angle (rad)", kind="bars", call=("joints", WALKER),
@@ -116,7 +117,7 @@ def limits_of_joints(rng):
 
 
 # ------------------------------------------------------------------- 5.3
-shape = exercise.task("5.3", "The shape at rest", packages=(), needs=("5.1", "5.2"), refused=TOOL)
+shape = exercise.task("5.3", "The shape at rest", needs=("5.1", "5.2"), refused=TOOL)
 shape.draws(
     "The body of an evolved walker at rest: eleven segments that hang together.",
     "x (m)", "y (m)", kind="shapes", call=("outline", WALKER),
@@ -146,9 +147,7 @@ def bent_bodies(rng):
 
 
 # ------------------------------------------------------------------- 5.4
-numbers = exercise.task(
-    "5.4", "A body in five numbers", packages=(), needs=("5.1", "5.2", "5.3"), refused=TOOL
-)
+numbers = exercise.task("5.4", "A body in five numbers", needs=("5.1", "5.2", "5.3"), refused=TOOL)
 
 
 @decoded(numbers, 4, "describe", parts=("length", "mass"))
@@ -192,7 +191,7 @@ noiseStdDev = 0.5
 stepsize = 0.5
 saveeach = 60
 """
-running = exercise.task("5.5", "Evolve walkers", packages=())
+running = exercise.task("5.5", "Evolve walkers")
 
 
 def trial(rng, seeds, steps=None, earlier=()):
@@ -252,7 +251,7 @@ def stops_after_the_steps(rng):
 
 
 # ------------------------------------------------------------------- 5.6
-surgery = exercise.task("5.6", "Give a brain another body", packages=())
+surgery = exercise.task("5.6", "Give a brain another body")
 
 
 def genotypes(rng, count):
@@ -272,7 +271,7 @@ def brain_in_another_body(rng):
 
 
 # ------------------------------------------------------------------- 5.7
-crossing = exercise.task("5.7", "The co-adaptation matrix", packages=(), needs=("5.6",))
+crossing = exercise.task("5.7", "The co-adaptation matrix", needs=("5.6",))
 
 
 def crossed(module, text, walkers, seed, episodes):
@@ -316,7 +315,7 @@ def another_experiment(rng):
 
 
 # ------------------------------------------------------------------- 5.8
-losing = exercise.task("5.8", "What is lost", packages=())
+losing = exercise.task("5.8", "What is lost")
 losing.draws(
     "How much each brain loses in foreign bodies, and each body with foreign brains.",
     "walker", "loss", kind="bars",

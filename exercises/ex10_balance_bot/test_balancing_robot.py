@@ -21,7 +21,12 @@ from botschool.grading.run.learning import lasted, learnt
 
 LOADED = ("pybullet", "pybullet_data", "botschool.course")
 exercise = Exercise(
-    10, "A new environment", file="balancing_robot.py", imports=LOADED, extras=("pybullet", "rl")
+    10,
+    "A new environment",
+    file="balancing_robot.py",
+    imports=LOADED,
+    extras=("pybullet", "rl"),
+    packages=(),
 )
 exercise.captions = {
     "balance.mp4": (
@@ -49,7 +54,7 @@ def random_link_masses(answer, *_):
     return dict(sorted(answer["links"].items()))
 
 
-reading = exercise.task("10.1", "Read the robot", packages=())
+reading = exercise.task("10.1", "Read the robot")
 
 
 def robots(rng):
@@ -87,7 +92,7 @@ def centre_of_mass(rng):
 
 
 # ------------------------------------------------------------------ 10.2
-spaces = exercise.task("10.2", "The spaces", packages=())
+spaces = exercise.task("10.2", "The spaces")
 
 
 def space_of(module, name, mode):
@@ -203,7 +208,7 @@ def on_stage(module, call, lean, others, speed, given, mode=None):
 
 
 # ------------------------------------------------------------------ 10.3
-observing = exercise.task("10.3", "What the robot feels", packages=())
+observing = exercise.task("10.3", "What the robot feels")
 
 
 @same(observing, 8, on_stage, 1e-4)
@@ -214,7 +219,7 @@ def observes(rng):
 
 
 # ------------------------------------------------------------------ 10.4
-resetting = exercise.task("10.4", "A new world", packages=())
+resetting = exercise.task("10.4", "A new world")
 
 
 def resets(rng, *courses):
@@ -240,7 +245,7 @@ def makes_the_world(rng):
 
 
 # ------------------------------------------------------------------ 10.5
-driving = exercise.task("10.5", "The motors", packages=())
+driving = exercise.task("10.5", "The motors")
 driving.draws(
     "Each action adds to the wheels' speed, which stays below 24.6, and turns back at once.",
     "step", "speed (rad/s)", kind="curves", of=lambda answer, *_: {"speed": answer["self.speed"]},
@@ -270,7 +275,7 @@ def stays_within_limits(rng):
 
 
 # ------------------------------------------------------------------ 10.6
-stepping = exercise.task("10.6", "Reward, end and step", packages=())
+stepping = exercise.task("10.6", "Reward, end and step")
 stepping.draws(
     "A robot whose wheels stand still falls; its reward falls with its inclination.",
     "step", "", kind="curves",
@@ -321,7 +326,7 @@ def leaves_the_time_limit_to_gymnasium(rng):
 
 
 # ------------------------------------------------------------------ 10.7
-registering = exercise.task("10.7", "A name for the environment", seconds=40, packages=())
+registering = exercise.task("10.7", "A name for the environment", seconds=40)
 
 
 @same(registering, 5, registered, 1e-3)
@@ -342,7 +347,7 @@ def passes_gymnasiums_checker(rng):
 
 
 # ------------------------------------------------------------------ 10.8
-packaging = exercise.task("10.8", "A package of its own", packages=())
+packaging = exercise.task("10.8", "A package of its own")
 
 
 def project_of(files):
@@ -384,8 +389,8 @@ def registers_on_import(rng):
 
 
 # ------------------------------------------------------- 10.9 and 10.10
-evolving = exercise.task("10.9", "Evolve a controller", seconds=240, packages=())
-training = exercise.task("10.10", "Train a controller", seconds=300)
+evolving = exercise.task("10.9", "Evolve a controller", seconds=240)
+training = exercise.task("10.10", "Train a controller", seconds=300, packages=("rl",))
 TWIN = {"problem": "SpatialBalanceBot-v0", "signs": [1, 1, 1], "side": 1}
 GYROSCOPE, WHEELS = TWIN | {"signs": [1, -1, 1]}, TWIN | {"signs": [1, 1, -1], "side": -1}
 

@@ -22,7 +22,7 @@ from botschool.grading.declare.libraries import (
     UPDATES_MADE,
 )
 
-exercise = Exercise(13, "Inside PPO", file="inside_ppo.py", extras=("rl",))
+exercise = Exercise(13, "Inside PPO", file="inside_ppo.py", extras=("rl",), packages=())
 exercise.captions = {
     "cartpole.mp4": (
         "A policy that was trained by a loop written here. It never learnt physics: it learnt what "

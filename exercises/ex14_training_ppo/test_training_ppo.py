@@ -16,7 +16,6 @@ exercise = Exercise(
     "Training with PPO",
     file="training_ppo.py",
     imports=("botschool.rl.training", "tensorboard.backend.event_processing.event_accumulator"),
-    extras=("rl",),
 )
 exercise.captions = {
     "success.png": (

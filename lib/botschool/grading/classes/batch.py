@@ -172,7 +172,7 @@ class Grades:
     def _grade(self, job: Job, alone: bool) -> dict[str, Any] | None:
         exercise = self.exercise(job.number)
         try:
-            exercise.require(map(exercise.find, job.tasks) if job.tasks else None)
+            exercise.require([*map(exercise.find, job.tasks)] or exercise.tasks)
         except BotschoolError as error:
             return self._nothing(job, str(error))
         times = [1 + bool(task.needs) for task in exercise.tasks]  # as often as it may be run

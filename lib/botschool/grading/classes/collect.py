@@ -110,7 +110,7 @@ def grade_all(
         for number in asked:
             if any(number in one.files for one in submissions):
                 exercise = grades.exercise(number)
-                exercise.require(map(exercise.find, asked[number]) if asked[number] else None)
+                exercise.require([*map(exercise.find, asked[number])] or exercise.tasks)
         rules = settings.policy.digest(asked)
         add_table(settings.policy, output / WORDS)
         register = Register(submissions, settings)

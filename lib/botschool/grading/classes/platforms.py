@@ -47,7 +47,7 @@ def graded(number: int, place: Path, only_changed: bool = False) -> dict[str, An
     """
     root = course_root()
     exercise = load_exercise(number, root)
-    exercise.require()
+    exercise.require(exercise.tasks)
     if (root / STATE / FILE).is_file():
         exercise.secret, _ = secret_for_others(root)
     one = find_in(place, exercise, root, Path(tempfile.mkdtemp(prefix="botschool-")))

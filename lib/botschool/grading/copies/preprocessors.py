@@ -166,7 +166,7 @@ class Grade(NbGraderPreprocessor):
         if not tests:
             raise BotschoolError("The assignment has no test cells: generate it again.")
         exercise = load_exercise(int(task_of(_grade_id(tests[0])).partition(".")[0]))
-        exercise.require()
+        exercise.require(exercise.tasks)
         exercise.secret, _ = secret_for_others(course_root())
         name = resources["nbgrader"]["notebook"] + ".ipynb"
         path = Path(resources["metadata"]["path"]) / name

@@ -107,6 +107,7 @@ class Exercise:
         file: str,
         imports: tuple[str, ...] = (),
         extras: tuple[str, ...] = (),
+        packages: tuple[str, ...] | None = None,
     ) -> None:
         """Declare the exercise's title, the file that students write, and its needs.
 
@@ -114,6 +115,7 @@ class Exercise:
         extras: of pyproject.toml, whose packages the exercise needs. `make test-exN` reads them
         from the grader's text, in the form extras=("rl",), and installs them. A grader imports
         these packages inside its functions, so that it loads without them.
+        packages: those of the extras that its tasks need; None for all. The picture may need more.
         """
         self.number = number
         self.title = title
@@ -121,6 +123,7 @@ class Exercise:
         absent = any(importlib.util.find_spec(name.partition(".")[0]) is None for name in imports)
         self.imports = (ABSENT,) if absent else imports
         self.extras = extras
+        self.packages = extras if packages is None else packages
         self.tasks: list[Task] = []
         self.secret = ""
         """The secret for the seeds; "" means BOTSCHOOL_GRADING_SEED, or else DEFAULT."""
@@ -157,10 +160,9 @@ class Exercise:
         needs: ids of tasks whose functions students call in this one. If one of these fails, this
         task is also graded with our functions in its place.
         refused: what libraries have for the task, in the forms of grading/run/refused.py.
-        packages: the exercise's extras that this task needs; None for all. Packages of other extras
-        may be missing.
+        packages: the extras that this task needs; None for the exercise's packages.
         """
-        extras = _wanted(self.extras if packages is None else packages)
+        extras = _wanted(self.packages if packages is None else packages)
         self.tasks.append(Task(id, title, seconds, memory, needs, refused, extras, self))
         return self.tasks[-1]
 
