@@ -33,7 +33,6 @@ from botschool.grading.declare.exercise import (
     exercise_numbers,
     folder_of,
     load_exercise,
-    submission_file,
 )
 from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import grade
@@ -144,7 +143,7 @@ def test_an_exercise_without_its_packages_says_what_to_install(sixteen, monkeypa
         BotschoolError, match=r"needs stable-baselines3.*botschool start 13.*\[rl\]"
     ):
         exercise.require()
-    job = batch.Job(16, submission_file(16, "solutions", sixteen[0]))
+    job = batch.Job(16, sixteen[0] / "solutions/ex16_tiny/tiny.py")
     result = batch.Grades(sixteen[0]).of([job], 1)[job]
     assert result["points"] == 0 and "needs stable-baselines3" in result["problem"]
     load_exercise(1, sixteen[0]).require()
