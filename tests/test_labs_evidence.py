@@ -8,14 +8,15 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from botschool.grading.classes.similar import Sheet as Handed
-from botschool.grading.classes.similar import doubtful
+from botschool.grading.classes.sheets import Sheet as Handed
+from botschool.grading.classes.sheets import doubtful, sheets_section
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.trust import trust
 from botschool.labs.check import Check
 from botschool.labs.classes import WantedSheet, secret_choice, traces
 from botschool.labs.confined import check_picture, drawn_figure, student_file
 from botschool.labs.declare import load_lab
+from botschool.labs.folder import skeletons
 from botschool.labs.own import told_fitness
 from botschool.labs.runs import changed
 from botschool.labs.saved import SavedRun, numbers
@@ -209,8 +210,8 @@ def test_a_comment_that_does_not_end_stays_in_the_prediction():
 
 # --- other people
 def test_other_peoples_runs_and_names_are_told():
-    def handed(student, name, *robots):
-        return Handed(student, name, frozenset(robots))
+    def handed(student, name, *robots, why=""):
+        return Handed(student, name, frozenset(robots), {"why": why, "best": "20"})
 
     people = ["Ada Lovelace", "Bo Diddley", "Cy Young", "ada-7"]
     assert (
@@ -219,11 +220,21 @@ def test_other_peoples_runs_and_names_are_told():
     )
     assert doubtful([handed("ada-7", "ADA"), handed("Cy Young", "")], people) == []
     (told,) = doubtful([handed("Bo Diddley", "lovelace, ada")], people)
-    assert told == (
+    assert told.told == [
         "Bo Diddley handed in a sheet with the name lovelace, ada, which is that of Ada Lovelace."
-    )
+    ]
     (told,) = doubtful([handed("Ada Lovelace", "", "a", "b"), handed("Cy Young", "", "b")], people)
-    assert told == "Ada Lovelace and Cy Young handed in the same runs: 1 of 2 and of 1."
+    assert told.told == ["Ada Lovelace and Cy Young handed in the same runs: 1 of 2 and of 1."]
+    why = "Many individuals find better ones, because they try more at once."
+    ada, cy = handed("Ada Lovelace", "", why=why), handed("Cy Young", "", why=why.lower()[:-1])
+    (told,) = doubtful([ada, cy, handed("Bo Diddley", "", why="I do not know yet, sorry.")], people)
+    assert told.told == ["Ada Lovelace and Cy Young give the same reason in their predictions."]
+    shown = sheets_section("lab3", [told])
+    assert shown.count("<div><h2>") == 2 and shown.count("try more at once") == 2
+    assert (
+        doubtful([handed("Ada Lovelace", "", why="No."), handed("Cy Young", "", why="No.")], people)
+        == []
+    )
 
 
 def test_a_class_tells_the_teacher_and_not_the_student(ada, tmp_path, monkeypatch):
@@ -238,6 +249,8 @@ def test_a_class_tells_the_teacher_and_not_the_student(ada, tmp_path, monkeypatc
         shutil.copytree(
             ada.folder, folder / name / "lab03", ignore=shutil.ignore_patterns("check*")
         )
+    for name in ("figure.py", "measure.py"):  # of the beginning, and beside the folder
+        (folder / "Bo" / name).write_text(skeletons(ada.lab)[name])
     sheet = folder / "Cy" / "lab03" / "sheet.md"
     sheet.write_text(sheet.read_text().replace("answer: Ada", "answer: Cy"))
     shutil.rmtree(folder / "Cy" / "lab03" / "runs")
@@ -253,5 +266,6 @@ def test_a_class_tells_the_teacher_and_not_the_student(ada, tmp_path, monkeypatc
     page = (tmp_path / "out" / "similar.html").read_text()
     assert "Ada and Bo handed in the same runs: 30 of 30 and of 30." in page
     assert "Bo handed in a sheet with the name Ada, which is that of Ada." in page
-    assert "Cy" not in page
+    assert "Cy handed in" not in page and "Bo and Cy give the same reason" in page
+    assert not rows["Bo"]["notes"]
     assert "same runs" not in page_of("Ada") + page_of("Bo")

@@ -149,6 +149,15 @@ def test_ranks_and_means():
     assert predators == [0.5, 0.25] and prey == [0.75, 0.5]
 
 
+def test_equal_robots_are_said_whatever_their_names(tmp_path):
+    for name, seed in (("Ada", 1), ("Bob", 1), ("Cy", 2), ("", 1)):
+        genotype = random_genotype(tmp_path, "cartpole", seed)
+        entry(tmp_path / "entries", genotype, "cartpole", name)
+    (told,) = compete(tmp_path / "entries").equal
+    ada, bob, nobody = (f"{each}-cartpole{SUFFIX}" for each in ("Ada", "Bob", "nobody"))
+    assert told == f"The same robot: {ada} (Ada), {bob} (Bob), {nobody} (anonymous)."
+
+
 def test_a_folder_that_is_not_there(tmp_path):
     with pytest.raises(BotschoolError, match="There is no folder"):
         compete(tmp_path / "none")

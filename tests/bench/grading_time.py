@@ -2,11 +2,11 @@
 
     python tests/bench/grading_time.py [--wrong 4] [--seed 1] [--only 3 8] [--endless]
 
-Each exercise's solution is graded, then known mistakes of it that are drawn at random (tests/course),
-each by a process of its own with its fork server: all that a teacher's machine does for one file.
-`--endless` grades ten kinds of functions that never return, and an endless loop in each function of
-the exercises. The script prints seconds of processor time and of wall time, how many times as long
-as for the solution that is, and at the end median and worst.
+Each exercise's solution is graded, then known mistakes of it that are drawn at random, each by a
+process of its own with its fork server: all that a teacher's machine does for one file. `--endless`
+grades an endless loop in each function of exercise 3 and in the first one of the others, and ten
+kinds of functions of exercise 3 that never return. The script prints seconds of processor time and
+of wall time, how many times as long as for the solution that is, and at the end median and worst.
 """
 
 import argparse
@@ -39,7 +39,7 @@ KINDS = {
     "                yield 1\n        __len__ = __eq__ = lambda *_: next(n for n in iter(int, 1))\n"
     "    return Endless([1])",
 }
-"""What stands in the body of exercise 3's `rank`; the tenth kind loops when the file is imported."""
+"""Bodies of exercise 3's `rank`; the tenth kind loops when the file is imported."""
 LOOP = "    while True:\n        pass"
 
 
@@ -59,12 +59,10 @@ def main() -> None:
         for name, wrong in cases:
             found.append((*measured(number, name, wrong, right), f"{number} {name}"))
     if found:
-        times = sorted((each[0], each[-1]) for each in found)
-        ratios = sorted((each[1], each[-1]) for each in found)
-        print(
-            f"processor seconds: median {statistics.median(t for t, _ in times):.1f}, worst {times[-3:]}"
-        )
-        print(f"ratio: median {statistics.median(r for r, _ in ratios):.2f}, worst {ratios[-5:]}")
+        for what, column in (("processor seconds", 0), ("times as long", 1)):
+            values = sorted((each[column], each[-1]) for each in found)
+            median = statistics.median(value for value, _ in values)
+            print(f"{what}: median {median:.2f}, worst {values[-5:]}")
 
 
 def drawn(number: int, given: argparse.Namespace) -> list[tuple[str, str]]:
@@ -80,7 +78,9 @@ def endless(number: int, text: str) -> list[tuple[str, str]]:
         r"^def (\w+)\((?:.|\n)*?### BEGIN SOLUTION.*\n((?:.|\n)*?) *### END", text, re.M
     )
     made = [(m[1], f"{text[: m.start(2)]}{LOOP}\n{text[m.end(2) :]}") for m in bodies]
-    if number == 3:
+    if number != 3:
+        del made[1:]
+    else:
         (body,) = (re.search(r"BEGIN SOLUTION task 3.2.*\n((?:.|\n)*?) *### END", text),)
         start, end = text[: body.start(1)], text[body.end(1) :]
         made += [(kind, f"{start}{each}\n{end}") for kind, each in KINDS.items()]

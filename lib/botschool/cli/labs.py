@@ -118,6 +118,7 @@ def league(
         write_page(found, output, temporary, title)
     table = output.with_suffix(".csv")
     save_bytes(table, results_csv(found))
+    print(*found.equal, sep="\n", end="\n" if found.equal else "")
     for sentence in found.refused[:MAX_REFUSED]:
         print(f"not in the league: {sentence}")
     if more := found.refused[MAX_REFUSED:]:

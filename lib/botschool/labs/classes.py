@@ -24,7 +24,7 @@ from botschool.grading.declare.secret import DEFAULT, VARIABLE
 from botschool.labs.check import Check, Checked
 from botschool.labs.check import Part as CheckedPart
 from botschool.labs.declare import NUMBERS, PARTS, WORDS, Lab, load_lab
-from botschool.labs.folder import Place
+from botschool.labs.folder import Place, skeletons
 from botschool.labs.sheet import MAX_BYTES
 
 SECONDS = 60
@@ -81,6 +81,7 @@ class WantedSheet(Wanted):
             choice.used |= {sheet, *inside[sheet].values()}
         choice.used |= {f for f in handed.files if f.shown.startswith(f"{best.folder}runs/")}
         choice.used |= {f for f in handed.files if f.shown == f"{best.folder}report.html"}
+        choice.used |= {f for f in handed.files if self._is_given(f)}
         if others:
             choice.notes.append(f"Not used: {listed([each.shown for each in others])}.")
         folder = new_folder() / self._lab.name
@@ -99,6 +100,13 @@ class WantedSheet(Wanted):
             return choice
         choice.file = folder / "sheet.md"
         return choice
+
+    def _is_given(self, file: File) -> bool:
+        """Return whether a file is a script of the laboratory, as its folder began."""
+        text = skeletons(self._lab).get(file.name) if file.name.endswith(".py") else None
+        with suppress(OSError):
+            return text is not None and file.read(MAX_BYTES).split() == text.encode().split()
+        return False
 
     def _is_ours(self, file: File) -> bool:
         if not re.fullmatch(r"(?i)sheet.*\.(md|txt)", file.name):
@@ -209,12 +217,16 @@ def _grade(number: str, file: Path, tasks: list[str], alone: bool) -> dict[str, 
 
 
 def traces(place: Place) -> dict[str, Any]:
-    """Return what shows whose sheet and runs these are: the sheet's name, hashes of the robots."""
+    """Return what shows whose sheet and runs these are: its name, prediction, hashes of robots."""
     files = [path for path in place.runs.rglob("bestgS*.npy") if path.is_file()]
     robots = {hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in files}
+    found = {"name": "", "robots": sorted(robots), "prediction": {}}
     with suppress(BotschoolError):
-        return {"name": place.sheet().text_of("name"), "robots": sorted(robots)}
-    return {"name": "", "robots": sorted(robots)}
+        sheet, asked = place.sheet(), place.lab.predictions
+        answers, _ = sheet.values(asked)
+        found["prediction"] = {f.what: str(answers[f.id]) for f in asked if f.id in answers}
+        found["name"] = sheet.text_of("name")
+    return found
 
 
 def main() -> None:

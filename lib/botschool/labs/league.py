@@ -52,6 +52,8 @@ class League:
     tables: dict[str, list[Ranked]]
     refused: list[str]
     """A sentence on each file that is no entry."""
+    equal: list[str] = field(default_factory=list)
+    """A sentence on entries that are the same robot."""
     chases: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
     """The predators' fitness: predators in rows, prey in columns."""
     hunters: list[Entry] = field(default_factory=list)
@@ -76,7 +78,7 @@ def compete(folder: Path, told: Callable[[str], None] = lambda text: None) -> Le
         raise BotschoolError(
             f"{folder} holds no entries (*{SUFFIX}): botschool enter makes one.{why}"
         )
-    league = League({}, refused)
+    league = League({}, refused, _equal(entries))
     for discipline, measure in MEASURES.items():
         group = [entry for entry in entries if entry.discipline == discipline]
         if group:
@@ -96,6 +98,15 @@ def compete(folder: Path, told: Callable[[str], None] = lambda text: None) -> Le
         league.tables["predator"] = ranked(league.hunters, predators)
         league.tables["prey"] = ranked(league.hunters, prey)
     return league
+
+
+def _equal(entries: list[Entry]) -> list[str]:
+    """Return a sentence on each group of entries that hold the same robot."""
+    groups: dict[tuple, list[str]] = {}
+    for entry in entries:
+        key = entry.discipline, repr(entry.experiment.policy), entry.genotype.tobytes()
+        groups.setdefault(key, []).append(f"{entry.file} ({shown_name(entry)})")
+    return [f"The same robot: {', '.join(files)}." for files in groups.values() if len(files) > 1]
 
 
 def in_turn(folder: Path) -> list[Path]:

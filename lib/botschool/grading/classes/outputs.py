@@ -16,13 +16,8 @@ from botschool.grading.classes.gradebook import (
 )
 from botschool.grading.classes.identity import Student
 from botschool.grading.classes.register import Register, Row, Settings
-from botschool.grading.classes.similar import (
-    Program,
-    Sheet,
-    doubtful,
-    similar_pairs,
-    similarity_page,
-)
+from botschool.grading.classes.sheets import Sheet, doubtful, sheets_section
+from botschool.grading.classes.similar import Program, similar_pairs, similarity_page
 from botschool.grading.classes.statistics import by_task, statistics_page
 from botschool.grading.classes.tables import read_table, safe_cell
 from botschool.grading.classes.term import RECORD, record
@@ -176,7 +171,8 @@ def _similar(
             found[number] = (len(programs), pairs)
     people = [row.name for row in rows]
     sheets = {lab: told for lab in asked if (told := doubtful(_sheets(rows, lab), people))}
-    page = similarity_page(found, sheets, skeletons)
+    parts = [sheets_section(lab, told) for lab, told in sheets.items()]
+    page = similarity_page(found, parts, skeletons)
     return page.encode("utf-8", "replace") if found or sheets else b""
 
 
@@ -188,5 +184,6 @@ def _sheets(rows: list[Row], number: Number) -> list[Sheet]:
             if result["exercise"] == number and (told := result.get("sheet")):
                 file = row.files[number]
                 names = f"{found[file].student}, {row.name}" if file in found else row.name
-                found[file] = Sheet(names, told["name"], frozenset(told["robots"]))
+                robots = frozenset(told["robots"])
+                found[file] = Sheet(names, told["name"], robots, told["prediction"])
     return [*found.values()]

@@ -102,7 +102,9 @@ class Policy:
         people = (self.extensions, self.adjustments, self.submitted)
         own = [sorted(map(str, self._own(each, wanted))) for each in people]
         due = sorted((str(k), str(v)) for k, v in self.due.items() if k in wanted)
-        told = repr((due, self.late, own, sorted(self.groups.items(), key=str), self.bonus, self.syntax))
+        told = repr(
+            (due, self.late, own, sorted(self.groups.items(), key=str), self.bonus, self.syntax)
+        )
         return hashlib.sha256(told.encode()).hexdigest()[:16]
 
     def has_deadline(self, number: Number) -> bool:

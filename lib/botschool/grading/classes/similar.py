@@ -18,10 +18,7 @@ from dataclasses import dataclass, replace
 from html import escape
 from types import MappingProxyType
 
-from botschool.grading.classes.identity import words
 from botschool.grading.classes.wall import Broken, walled
-from botschool.grading.declare.checks import plain
-from botschool.grading.declare.exercise import Number, called
 from botschool.grading.report.paper import listing, paper, runs
 
 LENGTH = 9
@@ -41,41 +38,6 @@ class Program:
 
     student: str
     text: str
-
-
-@dataclass(frozen=True)
-class Sheet:
-    """A laboratory's sheet, as it was handed in."""
-
-    student: str
-    name: str
-    """The name that stands in it."""
-    robots: frozenset[str]
-    """Hashes of the robots of its runs."""
-
-
-def doubtful(sheets: Sequence[Sheet], people: Iterable[str]) -> list[str]:
-    """Return a sentence on each sheet of another's name, and on each two that share runs.
-
-    people: the names of all students. A sheet may hold a part of its student's name.
-    """
-    known = {person: set(words(person).split()) for person in people}
-    told = []
-    for sheet in sheets:
-        named, own = set(words(sheet.name).split()), set(words(sheet.student).split())
-        others = [person for person, parts in known.items() if named <= parts]
-        if named and not named <= own and others:
-            told.append(
-                f"{sheet.student} handed in a sheet with the name {plain(sheet.name[:80])}, "
-                f"which is that of {', '.join(others)}."
-            )
-    for first, second in itertools.combinations(sheets, 2):
-        if first.student != second.student and (common := len(first.robots & second.robots)):
-            told.append(
-                f"{first.student} and {second.student} handed in the same runs: {common} of "
-                f"{len(first.robots)} and of {len(second.robots)}."
-            )
-    return told
 
 
 @dataclass(frozen=True)
@@ -189,18 +151,15 @@ nav { display: flex; justify-content: space-between; margin-bottom: .6rem; }
 
 def similarity_page(
     found: dict[int, tuple[int, list[Pair]]],
-    sheets: Mapping[Number, list[str]] = MappingProxyType({}),
-    skeletons: Mapping[Number, str] = MappingProxyType({}),
+    sheets: Iterable[str] = (),
+    skeletons: Mapping[int, str] = MappingProxyType({}),
 ) -> str:
     """Return a page without scripts, which shows one pair at a time.
 
-    found: exercise -> programs compared, and pairs. sheets: laboratory -> sentences of `doubtful`.
+    found: exercise -> programs compared, and pairs. sheets: parts of the page on laboratories.
     skeletons: the exercises' files, whose lines are folded.
     """
-    body, pages = [], []
-    for number, sentences in sheets.items():
-        items = "".join(f"<li>{escape(sentence)}</li>" for sentence in sentences)
-        body.append(f"<h1>{called(number)}: sheets to look at</h1><ul>{items}</ul>")
+    body, pages = [*sheets], []
     for number, (count, pairs) in found.items():
         body.append(f"<h1>Exercise {number}: {len(pairs)} similar pairs of {count} programs</h1>")
         names = [f"e{number}p{index}" for index in range(len(pairs))]

@@ -32,7 +32,8 @@ header h1 { margin: 0; }
 .line .name { flex: 1; }
 .mark { width: 1.2rem; font-weight: 700; text-align: center; }
 .good { color: var(--good); } .part { color: var(--part); } .none { color: var(--none); }
-.number { color: var(--soft); font-variant-numeric: tabular-nums; width: 2.6rem; }
+.number { color: var(--soft); font-variant-numeric: tabular-nums; min-width: 2.6rem;
+ white-space: nowrap; }
 .points { font-variant-numeric: tabular-nums; white-space: nowrap; }
 .why, .task details { margin: .3rem 0 .2rem 1.9rem; }
 .why p { margin: .15rem 0; white-space: pre-wrap; }
