@@ -64,7 +64,7 @@ notebook-ex%: $(READY) $$(call extras,$$*) $(if $(filter installed,$(READY)),,.v
 WORKERS ?= auto
 PYTEST := $(BIN)/python -m pytest -q -n $(WORKERS) --dist worksteal
 
-.PHONY: book test test-long fuzz check-course check-arm nbgrader figures skeletons bench results lint format sanitize
+.PHONY: book test test-long fuzz check-course check-arm wheels nbgrader figures skeletons bench results lint format sanitize
 test: .venv/.tests ## the tests that take seconds
 	@$(PYTEST)
 
@@ -85,6 +85,9 @@ fuzz: .venv/.tests ## damage files of every kind that the command reads, SECONDS
 
 skeletons: .venv/.module ## generate the exercises' files from the solutions
 	@$(BIN)/botschool skeletons
+
+wheels: .venv/.tools lib/botschool/page/spatial.wasm ## wheels for Python 3.10, 3.11, and 3.12 and later, in dist; PYTHONS="3.11" builds some
+	@$(BIN)/python tools/wheels.py $(PYTHONS)
 
 nbgrader: .venv/.tests ## a course folder for nbgrader in results/nbgrader
 	@$(BIN)/botschool nbgrader results/nbgrader

@@ -153,13 +153,53 @@ def test_what_is_exported(course, tmp_path):
         one_sentence(code, errors, sentence)
 
 
-def test_a_wheel_is_installed_where_it_is_given(course, tmp_path):
-    wheel = tmp_path / "botschool-1.0-py3-none-any.whl"
+HERE, MINOR = sys.version_info[:2], sys.version_info[1]
+
+
+@pytest.mark.parametrize(
+    ("tags", "words"),
+    [
+        (f"cp3{MINOR}-cp3{MINOR}-manylinux_2_28_x86_64", ""),
+        ("cp310-abi3-linux_x86_64", ""),
+        (f"cp3{MINOR + 1}-abi3-linux_x86_64", f"for Python 3.{MINOR + 1} and later: choose"),
+        ("cp39-cp39-linux_aarch64", "for Python 3.9: choose"),
+    ],
+)
+def test_a_wheel_is_installed_where_the_image_has_its_python(course, tmp_path, tags, words):
+    wheel = tmp_path / f"botschool-1.0-{tags}.whl"
     wheel.write_bytes(b"wheel")
     assert call("export", "gradescope", "-o", tmp_path / "out", "--wheel", wheel)[0] == 0
     with zipfile.ZipFile(tmp_path / "out" / "gradescope-ex03.zip") as archive:
         assert archive.read(wheel.name) == b"wheel"
-        assert f'pip install "$base/source/{wheel.name}"' in archive.read("setup.sh").decode()
+        archive.extract("setup.sh", tmp_path)
+    setup = (tmp_path / "setup.sh").read_text()
+    assert f'pip install "$base/source/{wheel.name}"' in setup and "g++" not in setup
+    commands = tmp_path / "bin"  # of an image: all that setup.sh calls
+    commands.mkdir()
+    (commands / "python3").write_text(
+        f'#!/bin/sh\n[ "$1" = -c ] && exec {sys.executable} "$@"\nmkdir -p .venv/bin\n'
+        "printf '#!/bin/sh\\necho installed' >.venv/bin/python; chmod +x .venv/bin/python\n"
+    )
+    (commands / "apt-get").write_text("#!/bin/sh\n")
+    for each in commands.iterdir():
+        each.chmod(0o755)
+    (tmp_path / "source" / "course").mkdir(parents=True)
+    done = subprocess.run(
+        ["bash", tmp_path / "setup.sh"], capture_output=True, text=True,
+        env={"PATH": f"{commands}:{os.environ['PATH']}", "AUTOGRADER": str(tmp_path)},
+    )  # fmt: skip
+    assert (done.returncode == 0) == (not words), done.stderr
+    assert words in done.stderr if words else done.stdout == "installed\n"
+
+
+@pytest.mark.parametrize(
+    "tags", ["py3-none-any", "cp311-cp311-win_amd64", "cp312-abi3-macosx_11_0_arm64"]
+)
+def test_a_wheel_for_another_system_is_refused(course, tmp_path, tags):
+    wheel = tmp_path / f"botschool-1.0-{tags}.whl"
+    wheel.write_bytes(b"wheel")
+    code, _, errors = call("export", "gradescope", "-o", tmp_path / "out", "--wheel", wheel)
+    one_sentence(code, errors, "needs a wheel of botschool for Linux")
 
 
 def test_nothing_handed_in_is_zero_and_a_fault_of_the_machine_is_not(course, tmp_path, monkeypatch):
@@ -168,7 +208,7 @@ def test_nothing_handed_in_is_zero_and_a_fault_of_the_machine_is_not(course, tmp
     assert result["points"] == 0 and "There is no tiny.py" in gradescope(result, 1)["output"]
     grader = course / "exercises" / FOLDER / "test_tiny.py"
     grader.write_text(
-        grader.read_text() + "\nexercise.require = lambda: (_ for _ in ()).throw("
+        grader.read_text() + "\nexercise.require = lambda tasks: (_ for _ in ()).throw("
         "__import__('botschool.errors').errors.BotschoolError('no torch'))\n"
     )
     with pytest.raises(BotschoolError, match="no torch"):

@@ -28,11 +28,13 @@ from botschool.errors import BotschoolError
 from botschool.evolution.run import Run, evolve
 from botschool.grading.classes import batch
 from botschool.grading.copies.skeleton import skeleton
+from botschool.grading.copies.starting import open_notebook
 from botschool.grading.declare import exercise as declared
 from botschool.grading.declare.exercise import (
     exercise_numbers,
     folder_of,
     load_exercise,
+    submission_file,
 )
 from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import grade
@@ -275,6 +277,26 @@ def test_a_task_without_its_packages_is_not_graded(monkeypatch, capsys):
     exercise.require_some(exercise.tasks)
     with pytest.raises(BotschoolError, match="torch"):
         exercise.require()
+
+
+def test_users_of_a_wheel_are_not_told_to_use_make(sixteen, tmp_path, monkeypatch):
+    monkeypatch.setattr(declared, "missing_packages", lambda extras: ["torch"])
+    monkeypatch.setattr("botschool.grading.copies.starting.find_spec", lambda name: None)
+    (tmp_path / "exercises").symlink_to(sixteen[0] / "exercises")
+    shutil.copy(ROOT / "Makefile", tmp_path)
+    trust(tmp_path)
+    for makes in (False, True):
+        (tmp_path / "wheels").mkdir(exist_ok=True) if makes else None
+        monkeypatch.setenv("BOTSCHOOL_COURSE", str(tmp_path))
+        exercise = load_exercise(16, tmp_path)
+        for tells in (
+            exercise.require,
+            lambda: open_notebook(16, tmp_path / "x.py", tmp_path),
+            lambda: submission_file(16, str(tmp_path), tmp_path),
+        ):
+            with pytest.raises(BotschoolError) as told:
+                tells()
+            assert (" make" in str(told.value).replace("'", " ")) == makes, told.value
 
 
 @pytest.mark.parametrize(("number", "picture"), [(5, "box2d"), (13, "rl"), (14, "")])

@@ -33,6 +33,17 @@ def course_root() -> Path:
     )
 
 
+def uses_make(root: Path) -> bool:
+    """Return whether `make` sets up this course; else botschool is installed, as from a wheel."""
+    sets_up = (root / "lib").is_dir() or (root / "wheels").is_dir()
+    return sets_up and (root / "Makefile").is_file()
+
+
+def for_make(root: Path) -> str:
+    """Return how to name a submission for `make`, to end a sentence about --submission with."""
+    return ", or SUBMISSION=FOLDER for make" if uses_make(root) else ""
+
+
 def material() -> Path:
     """Return the folder with the data/ and exercises/ that come with botschool.
 

@@ -6,6 +6,7 @@ platforms.py in it.
 
 from __future__ import annotations
 
+import re
 import shutil
 import tempfile
 import zipfile
@@ -25,12 +26,17 @@ set -euo pipefail
 base="${{AUTOGRADER:-/autograder}}"
 export DEBIAN_FRONTEND=noninteractive
 apt-get update
-apt-get install -y --no-install-recommends g++ make python3 python3-dev python3-venv
+apt-get install -y --no-install-recommends {packages}
 cd "$base/source/course"
 {install}
 """
+_COMPILER = "g++ make python3 python3-dev python3-venv"
 _FROM_SOURCE = "make build{extras}"
 _FROM_WHEEL = """\
+python3 -c 'import sys
+if not {fits}:
+    sys.exit("This image has Python %d.%d, but {wheel} is for Python {words}: choose an image "
+             "with it, or export with another wheel." % sys.version_info[:2])'
 python3 -m venv .venv
 .venv/bin/python -m pip install "$base/source/{wheel}{extras}\""""
 _RUN = """\
@@ -106,6 +112,8 @@ def export(
         )
     if wheel and (platform != "gradescope" or not wheel.is_file() or wheel.suffix != ".whl"):
         raise BotschoolError(f"--wheel {wheel}: name a .whl file, for gradescope.")
+    if wheel:
+        _pythons(wheel)
     places = {
         "gradescope": [output / f"gradescope-ex{number:02d}.zip" for number in numbers],
         "classroom50": [output / "autograders" / f"ex{number:02d}" for number in numbers],
@@ -147,16 +155,31 @@ def _gradescope(folder: Path, number: int, root: Path, wheel: Path | None) -> No
     if wheel:
         shutil.copy2(wheel, folder / wheel.name)
         listed = f"[{','.join(extras)}]" if extras else ""
-        install = _FROM_WHEEL.format(wheel=wheel.name, extras=listed)
+        fits, words = _pythons(wheel)
+        install = _FROM_WHEEL.format(wheel=wheel.name, extras=listed, fits=fits, words=words)
+        packages = "python3 python3-venv"
     else:
-        install = _FROM_SOURCE.format(extras=_targets(extras))
-    _script(folder / "setup.sh", _SETUP.format(install=install))
+        install, packages = _FROM_SOURCE.format(extras=_targets(extras)), _COMPILER
+    _script(folder / "setup.sh", _SETUP.format(install=install, packages=packages))
     _script(folder / "run_autograder", _RUN.format(number=number, module=_MODULE))
     secret, _ = secret_for_others(root)
     state = folder / "course" / STATE
     state.mkdir()
     (state / ".gitignore").write_text("*\n")
     (state / FILE).write_text(f"{secret}\n")
+
+
+def _pythons(wheel: Path) -> tuple[str, str]:
+    """Return which versions of Python a wheel is for, as an expression and in words.
+
+    Raises BotschoolError for a wheel that is not for Linux.
+    """
+    tags = re.fullmatch(r"botschool-.+-cp3(\d+)-(\w+)-(\w+)", wheel.stem)
+    if not tags or not tags[3].startswith(("linux", "manylinux")):
+        raise BotschoolError(f"--wheel {wheel}: Gradescope needs a wheel of botschool for Linux.")
+    later = tags[2] == "abi3"
+    fits = f"sys.version_info[:2] {'>=' if later else '=='} (3, {tags[1]})"
+    return fits, f"3.{tags[1]}{' and later' if later else ''}"
 
 
 def _classroom50(folder: Path, number: int, root: Path) -> None:

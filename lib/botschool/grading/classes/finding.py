@@ -16,6 +16,7 @@ from botschool.grading.classes.people import Person
 from botschool.grading.classes.wall import Broken, broken, walled
 from botschool.grading.declare.checks import plain
 from botschool.grading.declare.exercise import Exercise, Number
+from botschool.paths import for_make
 
 
 @dataclass
@@ -125,8 +126,8 @@ def find_one(place: Path, exercise: Exercise, root: Path, folder: Path) -> Submi
     choice = one.choices[exercise.number]
     if choice.file is None:
         raise BotschoolError(
-            f"{place}: {choice.problem} Name another folder with --submission FOLDER, or "
-            "SUBMISSION=FOLDER for make."
+            f"{place}: {choice.problem} Name another folder with --submission "
+            f"FOLDER{for_make(root)}."
         )
     return one
 

@@ -82,7 +82,7 @@ def sheets_section(number: Number, doubts: Sequence[Doubt]) -> str:
     for doubt in doubts:
         told = "".join(f"<p>{escape(each)}</p>" for each in doubt.told)
         sides = "".join(map(_side, doubt.sheets))
-        shown.append(f'<section class="pair">{told}<div class="both">{sides}</div></section>')
+        shown.append(f'<section>{told}<div class="both">{sides}</div></section>')
     return f"<h1>{called(number)}: sheets to look at</h1>{''.join(shown)}"
 
 

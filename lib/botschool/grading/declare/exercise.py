@@ -22,7 +22,7 @@ from botschool.grading.declare.picture import Picture
 from botschool.grading.declare.references import pruned
 from botschool.grading.declare.secret import DEFAULT, VARIABLE, grading_secret
 from botschool.grading.declare.trust import check_trusted
-from botschool.paths import course_root
+from botschool.paths import course_root, for_make
 from botschool.sandbox.inside import read_inside
 
 STATE = ".botschool"
@@ -354,7 +354,7 @@ def submission_file(number: int, submission: str | None, root: Path | None = Non
             return place / exercise.file
     raise BotschoolError(
         f"There is no {exercise.file} in {' or '.join(map(str, places))}: "
-        "name another folder with --submission FOLDER, or SUBMISSION=FOLDER for make."
+        f"name another folder with --submission FOLDER{for_make(root)}."
     )
 
 

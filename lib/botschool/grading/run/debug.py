@@ -74,6 +74,9 @@ class DirectStudent:
         self.rewired = Rewired(**robot)
         return driver(self._module, self.rewired.answer, *arguments)
 
+    hung: frozenset[str] = frozenset()
+    """As of Student; nothing ends a call here."""
+
     def within(self, seconds: float, what: object) -> AbstractContextManager[None]:
         """Limit nothing, unlike Student."""
         return nullcontext()
