@@ -5,6 +5,7 @@ import types
 import numpy as np
 import pytest
 
+from botschool.grading.run import pulse
 from botschool.grading.run.made_up import made_up
 from botschool.grading.run.training import watching
 
@@ -65,6 +66,25 @@ def test_signs_and_sides_are_changed_within_the_block_alone(side):
     assert np.allclose(answer["seen"], SIGNS * usual)
     if side > 0:
         assert np.allclose(module.train([4])["seen"], usual)
+
+
+@pytest.mark.parametrize("steps", [0, 400])
+def test_a_training_that_stands_still_is_ended(steps, monkeypatch):
+    monkeypatch.setattr(pulse, "LOOK", 0.2)
+    monkeypatch.setattr(pulse, "STILL", 0.4)
+    module = student()
+    module.train([4], steps=1)  # what is imported first takes its time
+    exec(
+        STUDENT.replace("    return {", "    while steps != 400:\n        pass\n    return {"),
+        vars(module),
+    )
+    with watching(module, "CartPole-v1", SIGNS, 1, 100, (), {}) as seen:
+        if steps:
+            module.train(range(20), steps=steps)  # longer than STILL, but it goes on
+            return
+        with pytest.raises(pulse.StandsStill):
+            module.train([4])
+    assert len(seen.returns) == 1
 
 
 def test_a_training_is_broken_off():

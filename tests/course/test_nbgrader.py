@@ -16,6 +16,7 @@ import pytest
 
 import building
 from botschool.errors import BotschoolError
+from botschool.grading.copies.preprocessors import task_of
 from botschool.grading.copies.release import release
 from botschool.grading.copies.skeleton import find_leaks
 from botschool.grading.declare.secret import VARIABLE
@@ -27,6 +28,7 @@ REGION = re.compile(
     r"^( *)### BEGIN SOLUTION (task (\d+\.\d+): [^\n]+)\n(.*?)^ *### END SOLUTION\n?",
     re.MULTILINE | re.DOTALL,
 )
+TEST_3_1 = "test-3-1_the-initial-population"
 EXIT = "def {name}(*arguments, **options):\n    import os\n\n    os._exit(0)\n"
 ENDINGS = [  # of a kernel, or of whoever runs the cell
     "import os\nos._exit(0)",
@@ -112,9 +114,7 @@ class Course:
             submission = gradebook.find_submission(f"ex{number:02d}", student)
             grades = [grade for notebook in submission.notebooks for grade in notebook.grades]
             assert not any(grade.needs_manual_grade for grade in grades)
-            return {
-                grade.name.removeprefix("test-").replace("-", "."): grade.score for grade in grades
-            }
+            return {task_of(grade.name): grade.score for grade in grades}
 
 
 def source(cell: dict) -> str:
@@ -149,7 +149,7 @@ def tampered(nb: dict) -> dict:
     for cell in answers[1:2]:
         cell["metadata"] = {"nbgrader": ["strange"]}
     nb["metadata"] = {"kernelspec": {"name": "bash", "display_name": "x"}, "language": 5}
-    marks = {"grade": True, "grade_id": "test-3-1", "points": 50, "solution": False}
+    marks = {"grade": True, "grade_id": TEST_3_1, "points": 50, "solution": False}
     nb["cells"][2:2] = [code("50.0", nbgrader={**marks, "locked": True, "schema_version": 3})]
     nb["cells"][2:2] = [code(text) for text in ENDINGS]
     return nb
@@ -184,7 +184,9 @@ def test_source_notebooks_are_whole_and_stay_the_same(course):
         assert all(mark.schema_version == 3 for mark in marks)
         assert sum(mark.points for mark in marks if mark.grade) == 100
         tasks = [task.id.replace(".", "-") for task in building.exercise(number).tasks]
-        assert [mark.grade_id for mark in marks if mark.grade] == [f"test-{task}" for task in tasks]
+        named = [mark.grade_id.partition("_") for mark in marks if mark.grade]
+        assert [each[0] for each in named] == [f"test-{task}" for task in tasks]
+        assert all(title for *_, title in named)
     before = {number: course.path("source", number).read_bytes() for number in building.GRADED}
     assert make_course(building.ROOT, course.folder) == []
     for number, notebook in before.items():
@@ -436,9 +438,9 @@ def test_test_cells_work_in_a_kernel(third, script_points, tmp_path, monkeypatch
     nb["cells"] = [cell for cell in nb["cells"] if "__main__" not in source(cell)]
     ran = nbformat.reads(json.dumps(nb), as_version=4)
     NotebookClient(ran, timeout=300, resources={"metadata": {"path": str(tmp_path)}}).execute()
-    tests = {cell.id: cell.outputs for cell in ran.cells if cell.id.startswith("test-")}
+    tests = {task_of(each.id): each.outputs for each in ran.cells if each.id.startswith("test-")}
     for task, points in expected.items():
-        *streams, result = tests[f"test-{task.replace('.', '-')}"]
+        *streams, result = tests[task]
         assert result.data["text/plain"] == repr(points)
         assert {stream.name for stream in streams} == {"stdout"}
         said = "".join(stream.text for stream in streams)

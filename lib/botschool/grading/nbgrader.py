@@ -192,7 +192,8 @@ def notebook(solution: str, exercise: Exercise) -> Any:
     after: dict[int, list[Any]] = {}
     for task in exercise.tasks:
         place = max(place, last.get(task.id, 0))
-        name = _unused("test-" + task.id.replace(".", "-"), taken)
+        title = "-".join(re.findall(r"[a-z0-9]+", task.title.lower()))[:40]
+        name = _unused(f"test-{task.id.replace('.', '-')}_{title}", taken)  # nbgrader shows it
         text = textwrap.dedent(f"""\
             # Task {task.id}, {task.max_points} points: save the notebook, then run this cell.
             from botschool.grading.notebook import grade_cell

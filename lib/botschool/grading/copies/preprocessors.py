@@ -30,7 +30,7 @@ from botschool.grading.notebook import report
 from botschool.grading.run.confined import fork_server
 
 ANSWER, TEST = "task-", "test-"
-"""Prefixes of the grade ids of answer cells and test cells; test-3-2 tests task-3-2."""
+"""Prefixes of the grade ids of answer cells and test cells; test-3-2_ranking tests task-3-2."""
 
 MAX_NOTEBOOK = 50 * 2**20
 """Bytes of a notebook with its pictures."""
@@ -38,8 +38,8 @@ UNREADABLE = "The submission is not a notebook, or is too large: there is nothin
 
 
 def task_of(grade_id: str) -> str:
-    """Return the task that a test cell grades: 3.2 for test-3-2."""
-    return grade_id.removeprefix(TEST).replace("-", ".")
+    """Return the task that a test cell grades: 3.2 for test-3-2_ranking."""
+    return grade_id.removeprefix(TEST).partition("_")[0].replace("-", ".")
 
 
 class ClearToSkeleton(NbGraderPreprocessor):

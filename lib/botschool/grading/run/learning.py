@@ -7,7 +7,8 @@ plays what the submission has learnt itself.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
+from functools import partial
 from typing import Any
 from unittest import mock
 
@@ -15,6 +16,7 @@ import gymnasium
 import numpy as np
 
 from botschool.envs.native import NativeEnv
+from botschool.grading.run.pulse import beat
 
 Layers = list[tuple[np.ndarray, np.ndarray]]
 """Weights and biases of each layer of a network."""
@@ -51,6 +53,7 @@ class Turned(gymnasium.Wrapper):
         return self.signs * observation, info
 
     def step(self, action: Any) -> tuple:
+        beat()
         if self._begins:
             self.actions.append(np.array(action))
         self._begins = False
@@ -119,9 +122,14 @@ def _near(one: np.ndarray, other: np.ndarray) -> bool:
 def watching_ppo() -> Iterator[Updates]:
     """Yield what PPO of Stable-Baselines3 makes within the block."""
     from stable_baselines3 import PPO
+    from torch.optim import optimizer as optimisers
 
     updates, update = Updates(), PPO.train
-    with mock.patch.object(PPO, "train", lambda model: updates.watch(update, model)):
+    with ExitStack() as stack:
+        watch = partial(updates.watch, update)
+        stack.enter_context(mock.patch.object(PPO, "train", lambda model: watch(model)))
+        hook = optimisers.register_optimizer_step_post_hook(lambda *_: beat())
+        stack.callback(hook.remove)
         yield updates
 
 
@@ -137,6 +145,7 @@ def learnt(module, name, environment, robot, seed, episodes, ppo):
     import gymnasium
 
     from botschool.grading.run.learning import BrokenOff, Turned, watching_ppo
+    from botschool.grading.run.pulse import alive
 
     made, answer = [], None
 
@@ -148,7 +157,7 @@ def learnt(module, name, environment, robot, seed, episodes, ppo):
     gymnasium.registry.pop(environment, None)
     gymnasium.register(environment, make, max_episode_steps=500)
     watched = watching_ppo() if ppo else contextlib.nullcontext()
-    with watched as updates, contextlib.suppress(BrokenOff):
+    with alive(), watched as updates, contextlib.suppress(BrokenOff):
         answer = getattr(module, name)(seed)
     actions = made[0].actions if made else []
     return [answer, actions, updates.change_of(answer) if ppo else 0.0]

@@ -11,13 +11,14 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any
 
 import numpy as np
 
 from botschool.course.evaluation import Robot
 from botschool.errors import BotschoolError
+from botschool.grading.run.pulse import alive, beat
 from botschool.grading.run.replaced import replaced
 
 MOST_EPISODES = 20_000
@@ -118,6 +119,7 @@ def asking(environment: str, size: int, ask: Callable[[Any], dict]) -> Iterator[
     def elsewhere(evaluate):
         def evaluated(robot, population, seed, episodes=5, maxsteps=1000):
             rows = np.ascontiguousarray(population, dtype=np.float64)
+            beat()
             others = robot.environment != environment or rows.shape != (len(rows), size)
             if others or not (0 < episodes <= MOST_EPISODES and 0 < maxsteps < 2**31):
                 return evaluate(robot, population, seed, episodes, maxsteps)
@@ -138,8 +140,5 @@ def asking(environment: str, size: int, ask: Callable[[Any], dict]) -> Iterator[
 
         return evaluated
 
-    with replaced(Robot, "evaluate", elsewhere):
-        try:
-            yield
-        except EnoughSeen:
-            return
+    with alive(), replaced(Robot, "evaluate", elsewhere), suppress(EnoughSeen):
+        yield

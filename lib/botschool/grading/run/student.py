@@ -21,6 +21,7 @@ from botschool.grading.run.confined import (
     start_child,
 )
 from botschool.grading.run.failures import Origin, SourceLines, explained, where_it_was
+from botschool.grading.run.pulse import STILL, StandsStill
 from botschool.grading.run.rewiring import Rewired
 from botschool.sandbox import Allowance, Child, ForkServer, Limits
 from botschool.sandbox.protocol import pack
@@ -132,8 +133,7 @@ class Student:
 
         what: the function or driver; Wrong is raised if it has not returned in time before.
         """
-        if (what if isinstance(what, str) else what.__name__) in self.hung:
-            raise Wrong("It is not called again, because a call before did not return in time.")
+        self._not_hung(what if isinstance(what, str) else what.__name__)
         allowed, self._limit = self._allowance.seconds, seconds
         self._allowance.seconds = min(allowed, self._allowance.processor + seconds)
         self._later = allowed - self._allowance.seconds
@@ -141,6 +141,10 @@ class Student:
             yield
         finally:
             self._allowance.seconds, self._limit, self._later = allowed, 0.0, 0.0
+
+    def _not_hung(self, name: str) -> None:
+        if name in self.hung:
+            raise Wrong("It is not called again, because a call before did not return in time.")
 
     def ask(self, request: dict[str, Any]) -> Any:
         """Repeat a request from another Student's trace and return the answer. Raises Wrong."""
@@ -204,6 +208,7 @@ class Student:
 
     def _request(self, request: dict[str, Any]) -> Any:
         self.request, self.answer, self.raised = request, None, {}
+        self._not_hung(str(request["name"]))
         if self.seconds_left <= 0:
             raise Wrong("the task's time was used up by the checks before.")
         first, before = self._child is None, self.seconds_left
@@ -238,6 +243,14 @@ class Student:
             raise Wrong(f"The program ended while {self.said} was running: {reason}.")
         self.answers += 1
         self._blame_the_machine_for_a_full_disk(answer)
+        if answer.get("error") == StandsStill.__name__:
+            self.stop()
+            self.hung.add(str(request["name"]))
+            where = self._source.shown(answer.get("file"), answer.get("line"))
+            raise Wrong(
+                f"{self.said} stands still: for {STILL:g} s it evaluated nothing, made no step and "
+                f"computed no gradient. Does a loop never end?{where}"
+            )
         if "error" in answer:
             self.raised = {"raised": str(answer["error"]), "text": str(answer.get("text"))}
             raise explained(answer, self.said, self._source)

@@ -11,6 +11,7 @@ from unittest.mock import patch
 
 import numpy as np
 
+from botschool.grading.run.pulse import alive, beat
 from botschool.grading.run.replaced import replaced
 
 MOST_WALKS, MOST_PLACES, MOST_NETWORKS = 50, 3000, 20
@@ -100,6 +101,7 @@ class Walks:
         return function(*given, **named)
 
     def _count(self, values: list[Any]) -> None:
+        beat()
         self.gradients += 1
         if values:
             self.note(values)
@@ -138,6 +140,7 @@ def watching(module: Any, functions: tuple[str, ...], stuck: int) -> Iterator[Wa
         walks.begin(stuck, partial(made, **named), network, *given)
 
     with ExitStack() as stack:
+        stack.enter_context(alive())
         stack.enter_context(patch.object(module.Network, "__init__", begin))
         for name in ("backward", "grad"):
             stack.enter_context(replaced(torch.autograd, name, partial(partial, walks.by_torch)))
