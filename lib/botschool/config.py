@@ -27,6 +27,7 @@ from botschool.evolution.algorithms.own import OwnConfig
 from botschool.evolution.algorithms.sss import SSSConfig
 from botschool.inifile import Entry, nearest, read_sections, refusal, shown
 from botschool.policies.hyperparameters import NO_YES, PolicyConfig, conflicts, hyper, one_layer
+from botschool.problems.native import NATIVE, own_name
 from botschool.wrappers import keywords, parse, spelled
 
 __all__ = [
@@ -197,6 +198,9 @@ def _experiment(sections: dict[str, dict[str, Entry]], path: str | PathLike[str]
         )
     notes: list[str] = []
     exp = _build(Exp, "EXP", sections["EXP"], path, notes)
+    exp.environment = own_name(exp.environment)
+    if exp.wrappers and exp.environment in NATIVE:
+        notes.append(f"{exp.environment} runs in Python: the native engine takes no wrappers.")
     if sections.get(ENV):
         notes += _take_options(exp, sections[ENV], path)
     policy = _build(PolicyConfig, "POLICY", sections.get("POLICY", {}), path, notes)

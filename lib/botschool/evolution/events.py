@@ -23,6 +23,8 @@ from botschool.output import cannot_write, make_again
 
 VERSION = "brain.Event:2"
 """The version that begins an event file."""
+BUCKETS = 30
+"""Intervals of a histogram."""
 POINTS = 1000
 """Points per curve; TensorBoard shows no more."""
 
@@ -67,16 +69,24 @@ class Events:
 
 
 def event(
-    now: float, step: int = 0, values: Sequence[tuple[str, float]] = (), version: str = ""
+    now: float,
+    step: int = 0,
+    values: Sequence[tuple[str, float]] = (),
+    version: str = "",
+    histograms: Sequence[tuple[str, np.ndarray]] = (),
 ) -> bytes:
-    """Return an Event message: values of tags at a step, or the version that begins a file."""
+    """Return an Event message: values of tags at a step, or the version that begins a file.
+
+    histograms: tags with the numbers whose distribution is shown.
+    """
     message = b"\x09" + struct.pack("<d", now)  # 1: wall_time
     if step:
         message += b"\x10" + _varint(step)  # 2: step
     if version:
         message += _field(b"\x1a", version.encode())  # 3: file_version
     if values:
-        summary = b"".join(_field(b"\x0a", _value(*each)) for each in values)  # 1: value
+        parts = [_value(*each) for each in values] + [_histogram(*each) for each in histograms]
+        summary = b"".join(_field(b"\x0a", part) for part in parts)  # 1: value
         message += _field(b"\x2a", summary)  # 5: summary
     return message
 
@@ -87,6 +97,20 @@ def _value(tag: str, number: float) -> bytes:
     except OverflowError:
         single = struct.pack("<f", math.copysign(math.inf, number))
     return _field(b"\x0a", tag.encode()) + b"\x15" + single  # 1: tag, 2: simple_value
+
+
+def _histogram(tag: str, numbers: np.ndarray) -> bytes:
+    numbers = np.asarray(numbers, dtype=np.float64).ravel()
+    if not numbers.size or not np.isfinite(numbers).all():
+        return _field(b"\x0a", tag.encode())
+    counts, edges = np.histogram(numbers, BUCKETS)
+    squares = float((numbers**2).sum())
+    moments = (numbers.min(), numbers.max(), numbers.size, numbers.sum(), squares)
+    keys = (b"\x09", b"\x11", b"\x19", b"\x21", b"\x29")  # 1: min, max, num, sum, sum_squares
+    message = b"".join(k + struct.pack("<d", n) for k, n in zip(keys, moments, strict=True))
+    for key, row in ((b"\x32", edges[1:]), (b"\x3a", counts)):  # 6: bucket_limit, 7: bucket
+        message += _field(key, struct.pack(f"<{BUCKETS}d", *row))
+    return _field(b"\x0a", tag.encode()) + _field(b"\x2a", message)  # 1: tag, 5: histo
 
 
 def _field(key: bytes, content: bytes) -> bytes:

@@ -15,7 +15,7 @@ from botschool import sisters
 from botschool.arenas.plan import PROBLEM, Plan
 from botschool.errors import BotschoolError
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
-from botschool.problems.native import NATIVE, NativeProblem
+from botschool.problems.native import NATIVE, NativeProblem, own_name
 
 __all__ = ["Episodes", "Interrupted", "Outcome", "Problem", "make", "names", "of"]
 
@@ -37,6 +37,7 @@ def make(
     against each other in it. Raises BotschoolError if there is no such problem, or if it has no
     such robots, wrappers or options.
     """
+    name = own_name(name)
     if name in NATIVE and not wrappers:
         return NativeProblem(name, robots, plan=plan, options=options)
     if plan is not None and name == PROBLEM:

@@ -6,14 +6,14 @@ in the current folder or is installed, and registers the id.
 
 import gymnasium
 
-from botschool.problems.native import INFOS
+from botschool.problems.native import IDS, INFOS
 
-for _name, _info in INFOS.items():
-    if _info["robots"] == 1 and _name not in gymnasium.registry:
+for _name in [name for name in INFOS if name in IDS and name not in gymnasium.registry]:
+    for _id in (IDS[_name], _name):
         gymnasium.register(
-            _info["gym"] or f"botschool/{_name}",
+            _id,
             entry_point="botschool.envs.native:NativeEnv",
-            max_episode_steps=_info["limit"],
+            max_episode_steps=INFOS[_name]["limit"],
             kwargs={"problem": _name},
         )
 

@@ -17,7 +17,7 @@ import gymnasium
 from botschool.errors import BotschoolError, said
 from botschool.paths import look_here
 from botschool.problems import faces  # noqa: F401  (registers our own)
-from botschool.problems.native import INFOS, NATIVE
+from botschool.problems.native import NATIVE, gym_id
 from botschool.terminal import has_display
 from botschool.wrappers import Wrapper
 
@@ -83,12 +83,10 @@ def _make(name: str, /, **options) -> gymnasium.Env:
 
 def _registered(name: str) -> str:
     """Return the id under which Gymnasium knows it; another package may own the plain id."""
-    if f"botschool/{name}" in gymnasium.registry:
-        return f"botschool/{name}"
+    name = gym_id(name)
     if name in NATIVE and name not in gymnasium.registry:
-        own = NATIVE[name][0]
-        return own if own in gymnasium.registry else INFOS[own]["gym"] or f"botschool/{own}"
-    return name
+        return NATIVE[name][0]
+    return f"botschool/{name}" if f"botschool/{name}" in gymnasium.registry else name
 
 
 def _choose_drawing(name: str) -> None:

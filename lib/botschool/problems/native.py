@@ -24,6 +24,34 @@ NATIVE = {name: (name, info["limit"]) for name, info in INFOS.items()} | {
 }
 """Name in experiment files -> (name in C++, longest episode)."""
 
+CLASSIC = ("Acrobot", "CartPole", "MountainCar", "Pendulum")
+"""Beginnings of the names of problems that Gymnasium has, too."""
+
+IDS = {
+    name: INFOS[core]["gym"] or (name if name.startswith(CLASSIC) else f"botschool/{name}")
+    for name, (core, _limit) in NATIVE.items()
+    if INFOS[core]["robots"] == 1
+}
+"""Name in experiment files of a problem with one robot -> its Gymnasium id."""
+
+_SPELLINGS = {
+    f"{prefix}{word}": name
+    for name in NATIVE
+    for word in (name, IDS.get(name, name).removeprefix("botschool/"))
+    for prefix in ("", "botschool/")
+}
+
+
+def own_name(name: str) -> str:
+    """Return the name in experiment files: botschool/Discrim-v0 is ErDiscrim; others are kept."""
+    return _SPELLINGS.get(name.removeprefix("botschool.envs:"), name)
+
+
+def gym_id(name: str) -> str:
+    """Return the Gymnasium id: ErDiscrim is botschool/Discrim-v0; other names are kept."""
+    return IDS.get(own_name(name), name)
+
+
 # Evaluation can stop between batches of about this many steps.
 BATCH_STEPS = 20_000_000
 

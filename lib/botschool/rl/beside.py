@@ -12,7 +12,7 @@ from botschool import config
 from botschool.errors import BotschoolError
 from botschool.paths import own_file
 from botschool.problems.gym import GymProblem
-from botschool.problems.native import INFOS, NATIVE
+from botschool.problems.native import gym_id
 from botschool.problems.transition import Transition
 from botschool.render.watch import read_genotype
 from botschool.rl.player import Player
@@ -31,7 +31,7 @@ class Evolved(Player):
         """Load the robot; file: the experiment that evolved it. Raises BotschoolError."""
         experiment = config.load(own_file(file, "experiments"))
         evolved_on = experiment.exp.environment
-        if trained.env not in _names(evolved_on):
+        if gym_id(trained.env) not in (gym_id(evolved_on), f"botschool/{evolved_on}"):
             raise BotschoolError(
                 f"{file} evolves robots on {evolved_on}, but the agent was trained on "
                 f"{trained.env}: show two that were made for the same environment."
@@ -101,14 +101,6 @@ class Beside:
         """Print mean and standard deviation of both."""
         self.trained.print_summary()
         self.evolved.print_summary()
-
-
-def _names(environment: str) -> set[str]:
-    """Return the ids under which Gymnasium has the environment of an experiment file."""
-    names = {environment, f"botschool/{environment}"}
-    if environment in NATIVE:
-        names.add(INFOS[NATIVE[environment][0]]["gym"])
-    return names
 
 
 def _faded(frame: np.ndarray, over: bool) -> np.ndarray:

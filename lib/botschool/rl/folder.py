@@ -27,6 +27,7 @@ import numpy as np
 
 from botschool.errors import BotschoolError
 from botschool.output import cannot_write, save_npz
+from botschool.problems.native import gym_id
 from botschool.rl.weights import numbers
 
 if TYPE_CHECKING:
@@ -185,9 +186,10 @@ def next_folder(base: Path, algo: str, env: str) -> RunFolder:
 
 def runs_of(folder: Path | str, algo: str, env: str) -> dict[int, RunFolder]:
     """Return the trainings of an algorithm on an environment, by their numbers."""
-    parent, name = Path(folder) / algo, name_of(env)
+    parent = Path(folder) / algo
     return {
         run.number: run
+        for name in (name_of(env), name_of(gym_id(env)))  # old folders have the name as given
         for run in find_runs(parent)
         if run.path.name == f"{name}_{run.number}" and run.path.parent == parent
     }

@@ -16,6 +16,7 @@ from gymnasium import spaces
 
 from botschool.errors import BotschoolError, said
 from botschool.inifile import shown
+from botschool.problems.native import gym_id
 from botschool.problems.spaces import has_limits, is_image
 from botschool.rl import spellings
 from botschool.rl.environments import described, make
@@ -80,7 +81,7 @@ def choose(
     wrappers. engine: native (botschool.rl.native), sb3 (Stable-Baselines3), or auto (native where
     possible). Raises BotschoolError.
     """
-    algo = check_algorithm(algo)
+    algo, env = check_algorithm(algo), gym_id(env)
     given, options = spellings.translated(params or {})
     steps, envs = steps or options.get("steps"), envs or options.get("envs")
     policy = policy or options.get("policy")

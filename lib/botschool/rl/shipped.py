@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from botschool.paths import material
+from botschool.problems.native import gym_id
 from botschool.rl.folder import name_of
 from botschool.rl.weights import WEIGHTS
 
@@ -67,7 +68,8 @@ def place(base: Path, algo: str, env: str) -> Path:
 
 def find(algo: str, env: str) -> Trained | None:
     """Return the agent of an algorithm on an environment, None if there is none."""
-    return next((each for each in agents() if (each.algo, each.env) == (algo, env)), None)
+    wanted = algo, gym_id(env)
+    return next((each for each in agents() if (each.algo, gym_id(each.env)) == wanted), None)
 
 
 def nearest(algo: str, env: str) -> Trained | None:

@@ -15,6 +15,7 @@ from botschool.output import cannot_write
 from botschool.rl.folder import Evaluations, RunFolder, next_folder
 from botschool.rl.model import build, choose
 from botschool.rl.native import training as native
+from botschool.rl.native.choosing import tell_engine
 from botschool.rl.parameters import parse, read_settings
 from botschool.rl.policies import WITH_IMAGES
 from botschool.rl.settings import Settings
@@ -242,6 +243,8 @@ def train_command(
     """Run `botschool rl train`: print progress and result; return False if the user stopped it."""
     chosen = (read_settings(file) if file else {}) | parse(params)
     settings = choose(algo, env, params=chosen, **options)
+    if options.get("engine") != "sb3":
+        tell_engine(settings)
     if workers > 1 and settings.engine != "native":
         raise BotschoolError(
             "-w is for the native engine; with Stable-Baselines3, use --vec-env subproc."

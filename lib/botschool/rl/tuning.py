@@ -24,8 +24,10 @@ from botschool.errors import BotschoolError
 from botschool.inifile import shown
 from botschool.lock import locked
 from botschool.output import cannot_write, save_bytes
+from botschool.problems.native import gym_id
 from botschool.rl.folder import Evaluations, name_of
 from botschool.rl.model import choose, require
+from botschool.rl.native.choosing import tell_engine
 from botschool.rl.training import learn
 from botschool.terminal import readable, stoppable
 
@@ -92,7 +94,7 @@ class Plan:
     @property
     def path(self) -> Path:
         """Return the folder of the tuning."""
-        return self.folder / "tune" / self.algo / name_of(self.env)
+        return self.folder / "tune" / self.algo / name_of(gym_id(self.env))
 
     @property
     def best(self) -> Path:
@@ -253,6 +255,7 @@ def _short(value: Any) -> str:
 def tune_command(plan: Plan) -> bool:
     """Run `botschool rl tune`: print a line for each trial; return False if the user stopped it."""
     print(f"tuning {plan.algo} on {plan.env} in {plan.path}", flush=True)
+    tell_engine(choose(plan.algo, plan.env, **plan.options))
     with stoppable() as stopping:
         done = tune(plan, lambda line: print(line, flush=True), stopping)
     if not done:

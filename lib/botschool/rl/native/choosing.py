@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import asdict
 from importlib.metadata import version
 from typing import Any
@@ -44,6 +45,22 @@ def reason_against(
     if entry.get("activation_fn", "tanh") in ("elu", "gelu"):
         return f"it has no {entry['activation_fn']}"
     return ""
+
+
+def tell_engine(settings: Settings) -> None:
+    """Print on stderr why Stable-Baselines3 trains a native problem; print nothing otherwise."""
+    if settings.engine == "native" or native_problem(settings.env) is None:
+        return
+    policy = None if settings.policy == "mlp" else settings.policy
+    chosen = entry_of(settings.env) | settings.given
+    why = reason_against(
+        settings.algo, settings.env, policy, chosen, settings.wrappers, settings.vec_env
+    )
+    if why:
+        print(
+            f"note: the native engine cannot train this ({why}), so Stable-Baselines3 does.",
+            file=sys.stderr,
+        )
 
 
 def entry_of(env: str) -> dict[str, Any]:

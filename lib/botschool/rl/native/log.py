@@ -12,10 +12,14 @@ import numpy as np
 from botschool import linear
 from botschool.evolution.events import VERSION, event, record
 from botschool.output import cannot_write
+from botschool.rl.native.discounted import DiscountedReturns
 from botschool.rl.native.ppo import PPO
 
 RECENT = 100
 """Number of recent episodes that rollout/ep_rew_mean covers."""
+
+HISTOGRAMS = 100
+"""Histograms of each kind in a whole training; TensorBoard shows about as many."""
 
 TIME = ("time/fps", "time/time_elapsed")
 """Indicators that differ from run to run."""
@@ -35,9 +39,13 @@ class Log:
         folders = [folder] if more is None else [folder, more / folder.name]
         self._events = [self._event_file(each, resumed) for each in folders]
         self._columns = columns(ppo)
+        self._sums = DiscountedReturns(ppo)
+        self._spread: list[tuple[str, np.ndarray]] = []
+        self._parts = 0
         self._begun, self._before, self._first = time.monotonic(), 0.0, ppo.steps
         self.returns: deque[float] = deque(maxlen=RECENT)
         self.lengths: deque[int] = deque(maxlen=RECENT)
+        self.discounted: deque[float] = deque(maxlen=RECENT)
 
     def indicators(self, found: dict[str, float]) -> dict[str, float]:
         """Return the indicators of update() and the rollout, by Stable-Baselines3's names."""
@@ -45,12 +53,17 @@ class Log:
         _, returns, lengths = ppo.episodes
         self.returns.extend(returns.tolist())
         self.lengths.extend(lengths.tolist())
+        self.discounted.extend(self._sums.add(returns).tolist())
         rollout, named = ppo.rollout, {}
         if self.returns:
             named["rollout/ep_rew_mean"] = float(np.mean(self.returns))
             named["rollout/ep_len_mean"] = float(np.mean(self.lengths))
+        if self.discounted:  # a checkpoint of an older version has none
+            named["rollout/discounted_return"] = float(np.mean(self.discounted))
         named |= moments("rollout/advantage", rollout.advantages)
         actions = rollout.actions.reshape(-1, rollout.actions.shape[2])
+        self._spread = [("rollout/advantage", rollout.advantages)]
+        self._spread += zip(_names(ppo, ["actions/chosen"]), actions.T, strict=False)
         std = ppo.weights.get("log_std")
         if std is None:
             counts = np.bincount(actions[:, 0].astype(int), minlength=ppo.outputs)
@@ -75,7 +88,10 @@ class Log:
     def add(self, values: dict[str, float]) -> None:
         """Append a row. Raises BotschoolError."""
         step, now = self._ppo.steps, time.time()
-        written = record(event(now, step, list(values.items())))
+        parts = HISTOGRAMS * step // max(1, self._ppo.total_timesteps)
+        spread = self._spread if parts > self._parts else []
+        self._parts = parts
+        written = record(event(now, step, list(values.items()), histograms=spread))
         try:
             for file in self._events:
                 with open(file, "ab") as events_file:
@@ -99,6 +115,8 @@ class Log:
             "log_sizes": np.array(sizes),
             "log_returns": np.array(self.returns, dtype=np.float64),
             "log_lengths": np.array(self.lengths, dtype=np.int64),
+            "log_discounted": np.array(self.discounted, dtype=np.float64),
+            "log_sums": self._sums.carried,
             "log_seconds": np.array([self._before + time.monotonic() - self._begun]),
         }
 
@@ -111,6 +129,10 @@ class Log:
         self._before = float(state["log_seconds"][0])
         self.returns.extend(returns.tolist())
         self.lengths.extend(lengths.tolist())
+        if "log_sums" in state:
+            self._sums.restore(state["log_sums"])
+            self.discounted.extend(state["log_discounted"].tolist())
+        self._parts = HISTOGRAMS * self._ppo.steps // max(1, self._ppo.total_timesteps)
         for file, size in zip([self._csv, *self._events], sizes, strict=False):
             if file.exists() and file.stat().st_size > size:
                 with open(file, "r+b") as cut:
@@ -135,14 +157,20 @@ def moments(name: str, values: np.ndarray) -> dict[str, float]:
     return {f"{name}_mean": float(np.mean(values)), f"{name}_std": float(np.std(values))}
 
 
+def _names(ppo: PPO, discrete: list[str]) -> list[str]:
+    """Return the names of the actions' numbers; discrete: those of a discrete problem."""
+    return [f"actions/{i}" for i in range(ppo.outputs)] if "log_std" in ppo.weights else discrete
+
+
 def columns(ppo: PPO) -> list[str]:
     """Return the columns of progress.csv."""
     discrete = "log_std" not in ppo.weights
-    actions = [f"actions/frequency_{i}" if discrete else f"actions/{i}" for i in range(ppo.outputs)]
+    actions = _names(ppo, [f"actions/frequency_{i}" for i in range(ppo.outputs)])
     pairs = ["rollout/advantage", *([] if discrete else actions)]
     return [
         "time/total_timesteps", "time/iterations", *TIME,
-        "rollout/ep_rew_mean", "rollout/ep_len_mean", "eval/mean_reward", "eval/mean_ep_length",
+        "rollout/ep_rew_mean", "rollout/ep_len_mean", "rollout/discounted_return",
+        "eval/mean_reward", "eval/mean_ep_length",
         *(f"{name}_{what}" for name in pairs for what in ("mean", "std")),
         *(actions if discrete else ["train/std"]),
         *(f"train/{name}" for name in TRAIN),

@@ -10,7 +10,7 @@ import numpy as np
 
 from botschool import _core, linear
 from botschool.errors import BotschoolError
-from botschool.problems.native import INFOS
+from botschool.problems.native import INFOS, gym_id
 from botschool.rl.native import problem
 from botschool.rl.native.hyperparameters import Hyperparameters, at
 
@@ -80,7 +80,7 @@ class Loss:
 class PPO:
     """A policy, a critic, environments to act in, and an optimiser.
 
-    env: a Gymnasium id of a native problem with one robot. normalize: scale observations and
+    env: a native problem with one robot, by any of its names. normalize: scale observations and
     rewards by their running mean and deviation. total_timesteps: the steps over which "linear X"
     falls. threads: change the speed, not the result. The other arguments are Hyperparameters, with
     Stable-Baselines3's names and defaults. Raises BotschoolError.
@@ -97,7 +97,7 @@ class PPO:
         instruction_set: str = "",
         **hyperparameters: Any,
     ) -> None:
-        self.env, self.seed, self.n_envs, self.normalize = env, seed, n_envs, normalize
+        self.env, self.seed, self.n_envs, self.normalize = gym_id(env), seed, n_envs, normalize
         self.total_timesteps = total_timesteps
         self.hyperparameters = Hyperparameters.of(hyperparameters)
         self.problem, self.limit = problem.find(env)

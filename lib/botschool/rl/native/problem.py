@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from botschool.errors import BotschoolError
 from botschool.inifile import nearest
-from botschool.problems.native import INFOS, NATIVE
+from botschool.problems.native import IDS, INFOS, NATIVE, gym_id
 
 
 def native_problem(env: str) -> tuple[str, int] | None:
     """Return the C++ name and the longest episode of a native problem with one robot, else None.
 
-    env: a Gymnasium id, such as CartPole-v1 or botschool/Discrim-v0.
+    env: its name in experiment files, or its Gymnasium id, such as botschool/Discrim-v0.
     """
-    return _PROBLEMS.get(env)
+    return _PROBLEMS.get(gym_id(env))
 
 
 def find(env: str) -> tuple[str, int]:
@@ -25,20 +25,10 @@ def find(env: str) -> tuple[str, int]:
     return found
 
 
-def _faces() -> dict[str, tuple[str, int]]:
-    faces = {}
-    for name, (core, limit) in NATIVE.items():
-        info = INFOS[core]
-        if (
-            info["robots"] == 1 and not info["body"] and name != "Pendulum-v0"
-        ):  # Gymnasium no longer has this problem
-            own = info["gym"] or (name if _of_gymnasium(name) else f"botschool/{name}")
-            faces[own] = (core, limit)
-    return faces
-
-
-def _of_gymnasium(name: str) -> bool:
-    return name.startswith(("Acrobot", "CartPole", "MountainCar", "Pendulum"))
-
-
-_PROBLEMS = _faces()
+_PROBLEMS = {
+    IDS[name]: found
+    for name, found in NATIVE.items()
+    if name in IDS
+    and not INFOS[found[0]]["body"]
+    and name != "Pendulum-v0"  # Gymnasium no longer has it
+}
