@@ -198,7 +198,7 @@ def test_a_folder_gives_mean_and_band_over_its_runs(tmp_path, drawn):
     np.testing.assert_allclose(mean[-1], [11000.0, 100.0])
     band = drawn[0].axes[0].collections[-1].get_paths()[0].vertices
     assert band[:, 1].max() == pytest.approx(110.0)
-    assert len(drawn[0].axes[0].lines) == 5
+    assert len(drawn[0].axes[0].lines) == 9  # 3 runs, 2 means with 2 edges each
 
 
 def test_replications_count_only_as_far_as_they_ran():

@@ -68,9 +68,9 @@ class Map:
         self.low, self.high = limits(config.lowest), limits(config.highest)
 
     def chosen(self) -> list[int]:
-        """Return the elite nearest to the middle of each part of the elites' range."""
+        """Return the elite nearest to the middle of each part of the map, in reading order."""
         share = (self.cells - self.cells.min(axis=0) + 0.5) / (np.ptp(self.cells, axis=0) + 1)
-        middles = (np.indices((SHOWN, SHOWN)).reshape(2, -1).T + 0.5) / SHOWN
+        middles = (np.indices((SHOWN, SHOWN))[:, ::-1].reshape(2, -1).T + 0.5) / SHOWN
         distances = ((share[:, None] - middles) ** 2).sum(axis=2)
         return list(dict.fromkeys(distances.argmin(axis=0).tolist()))
 
@@ -126,6 +126,7 @@ def plot_elites(folder: Path, seed: int, picture: Path | None, replay: Path | No
         left, right = figure.subplots(1, 2, width_ratios=[1, 1.15])
         _draw_map(left, elites, chosen)
         _draw_strips(right, elites, seed, chosen)
+        figure.suptitle(f"{elites.experiment.exp.environment}, MAP-Elites, seed {seed}")
     if replay:
         robots = Elites(elites, seed, chosen)
         robots.write_replay(replay, robots.available)
@@ -137,7 +138,8 @@ def _draw_map(axes: Axes, elites: Map, chosen: list[int]) -> None:
     fitness[tuple(elites.cells.T)] = elites.fitness
     extent = (elites.low[1], elites.high[1], elites.low[0], elites.high[0])
     image = axes.imshow(fitness, origin="lower", extent=extent, aspect="auto", cmap="viridis")
-    axes.figure.colorbar(image, ax=axes, label="fitness", location="top", shrink=0.8)
+    label = "fitness of each elite (grey: no elite)"
+    axes.figure.colorbar(image, ax=axes, label=label, location="top", pad=0.02, aspect=30)
     axes.set(xlabel=elites.axes[1].name, ylabel=elites.axes[0].name, facecolor="#eeeeee")
     low, high = np.array(elites.low), np.array(elites.high)
     middles = low + (elites.cells[chosen] + 0.5) * (high - low) / elites.size
@@ -168,7 +170,10 @@ def _draw_strips(axes: Axes, elites: Map, seed: int, chosen: list[int]) -> None:
     height = rows[0].shape[0]
     axes.imshow(np.concatenate(rows))
     places = [height * (number + 0.5) for number in range(len(rows))]
-    axes.set_yticks(places, [str(number + 1) for number in range(len(rows))])
+    labels = [f"{n}\n{readable(float(elites.fitness[k]))}" for n, k in enumerate(chosen, 1)]
+    axes.set_yticks(places, labels)
+    axes.tick_params(axis="y", length=0)
+    axes.set_ylabel("number in the map, fitness")
     axes.set_xticks([])
     seconds = STEP / robots.problem.fps
     axes.set_title(f"{FRAMES} moments of each, {seconds:.2g} s apart", fontsize=10)

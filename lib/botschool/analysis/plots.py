@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,6 +17,7 @@ from botschool.analysis.runs import (
     GENERATION_BEST,
     STEPS,
     Warn,
+    problem_of,
     read_curves,
     read_fitness,
     read_stat,
@@ -68,17 +69,19 @@ def plot_stat(
     The picture goes to the screen, or to the file `output`. A damaged stat file is an error if it
     was named; if its folder was named, it is left out with a warning. Raises BotschoolError.
     """
-    evolved, trained = _read_targets(targets, warn)
+    evolved, trained, problems = _read_targets(targets, warn)
     experiments = evolved | trained
     words = _Words.of(bool(evolved), bool(trained))
     with new_figure(output) as figure:
         axes = figure.add_subplot()
         if len(experiments) > 1:
             for (name, curves), colour in zip(experiments.items(), _cycle(), strict=False):
-                _draw_group(axes, curves, words.column, colour, f"{name}, {_of_runs(curves)}")
-            _finish(axes, words.labels[words.column], words)
+                label = f"{name}, {_of_runs(curves)}"
+                _draw_group(axes, curves, words.column, colour, label, singles=False)
+            _finish(axes, _common(problems.values(), words.labels[words.column]), words)
             return
         [(name, curves)] = experiments.items()
+        name = problems.get(name, name)
         if len(curves) == 1:
             [number] = curves
             _draw_run(axes, curves[number], words.labels)
@@ -140,15 +143,21 @@ def plot_ave(targets: Sequence[Path | str], output: Path | str | None = None) ->
     _print_table(fitness)
     try:
         with new_figure(output, height=max(5.0, 1.6 + 0.6 * len(fitness))) as figure:
-            _draw_bars(figure.add_subplot(), fitness)
+            axes = figure.add_subplot()
+            _draw_bars(axes, fitness)
+            title = "best post-evaluated fitness, mean \u00b1 sd over runs"
+            axes.set_title(_common([problem_of(folder) for folder in folders], title))
     except NoDisplay as error:
         print(f"note: {error}", file=sys.stderr)
 
 
 def _read_targets(
     targets: Sequence[Path | str], warn: Warn
-) -> tuple[dict[str, Curves], dict[str, Curves]]:
-    """Return name -> curves, of evolution and of trainings; stat files are grouped by folder."""
+) -> tuple[dict[str, Curves], dict[str, Curves], dict[str, str]]:
+    """Return name -> curves, of evolution and of trainings, and name -> problem and algorithm.
+
+    Stat files are grouped by folder; a folder of old runs may not say its problem.
+    """
     evolved: dict[Path, Curves] = {}
     trainings: list[Path] = []
     for target in map(Path, targets):
@@ -168,6 +177,7 @@ def _read_targets(
     return (
         {name: evolved[folder] for name, folder in names.items() if folder in evolved},
         {name: trained[group] for name, group in names.items() if group in trained},
+        {name: about for name, folder in names.items() if (about := problem_of(folder))},
     )
 
 
@@ -181,6 +191,14 @@ def _named(folders: Sequence[Path]) -> dict[str, Path]:
         if len(names) == len(resolved):
             break
     return names
+
+
+def _common(problems: Collection[str], title: str) -> str:
+    """Return the title after what all folders have in common: problem and algorithm, or one."""
+    for about in ({*problems}, {each.partition(",")[0] for each in problems}):
+        if len(about) == 1 and all(about):
+            return f"{about.pop()}: {title}"
+    return title
 
 
 def _cycle() -> Iterator[str]:
@@ -252,10 +270,12 @@ def _draw_run(axes: Axes, stat: np.ndarray, labels: dict[int, str]) -> None:
         )
 
 
-def _draw_group(axes: Axes, curves: Curves, column: int, colour: str, label: str) -> None:
-    """Draw the mean and band of several runs, and each run as a thin line."""
+def _draw_group(
+    axes: Axes, curves: Curves, column: int, colour: str, label: str, singles: bool = True
+) -> None:
+    """Draw the mean and band of several runs; singles: also each run as a thin line."""
     single = len(curves) == 1
-    for stat in curves.values():
+    for stat in curves.values() if single or singles else ():
         marker = "o" if len(stat) == 1 else None
         stat = _thinned(stat)
         axes.plot(
@@ -274,7 +294,9 @@ def _draw_group(axes: Axes, curves: Curves, column: int, colour: str, label: str
 
 def _draw_mean(axes: Axes, curves: Curves, column: int, colour: str, label: str) -> None:
     steps, mean, sd = replication_mean(list(curves.values()), column)
-    axes.fill_between(steps, mean - sd, mean + sd, color=colour, alpha=0.18, lw=0)
+    axes.fill_between(steps, mean - sd, mean + sd, color=colour, alpha=0.1, lw=0)
+    for edge in (mean - sd, mean + sd):  # where bands overlap, each shows where it ends
+        axes.plot(steps, edge, color=colour, lw=0.9, ls=(0, (4, 2)))
     axes.plot(steps, mean, color=colour, lw=2.2, label=label)
 
 
@@ -288,9 +310,10 @@ def replication_mean(
     two runs, or fewer than half of them, count.
     """
     stats = list(stats)
-    grid = np.linspace(
-        min(stat[0, STEPS] for stat in stats), max(stat[-1, STEPS] for stat in stats), points
-    )
+    ends = [stat[-1, STEPS] for stat in stats]
+    # runs of one length end a few steps apart: there the mean would jump to that of the last ones
+    end = min(ends) if min(ends) > 0.95 * max(ends) else max(ends)
+    grid = np.linspace(min(stat[0, STEPS] for stat in stats), end, points)
     values = np.full((len(stats), points), np.nan)
     for row, stat in zip(values, stats, strict=True):
         known = stat[np.isfinite(stat[:, column])]
@@ -381,7 +404,6 @@ def _draw_bars(axes: Axes, fitness: dict[str, np.ndarray]) -> None:
     margin = 0.9 if len(labels) == 1 else 0.5
     axes.set_ylim(len(labels) - 1 + margin, -margin)
     axes.axvline(0.0, color="black", lw=0.8)
-    axes.set_title("best post-evaluated fitness, mean \u00b1 sd over runs")
     axes.set_xlabel(FITNESS)
     axes.ticklabel_format(axis="x", useOffset=False)
     axes.grid(axis="x", color="#DDDDDD", lw=0.6)

@@ -12,6 +12,7 @@ from contextlib import redirect_stdout
 from dataclasses import fields
 from html import escape
 from importlib.resources import files
+from math import ceil, floor, log10
 from pathlib import Path
 from string import Template
 
@@ -92,22 +93,29 @@ def curve(rows: np.ndarray) -> str:
         return f"{x:.1f},{y:.1f}"
 
     parts = [f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="fitness against steps">']
-    for share in (0.0, 0.5, 1.0):
-        value = low + share * (high - low)
+    for value in ticks(low, high):
         left, end = place(0, value), place(right, value)
         parts.append(f'<polyline class="grid" points="{left} {end}"/>')
         y = float(left.split(",")[1]) + 4
-        parts.append(f'<text x="{LEFT - 8}" y="{y:.1f}" class="end">{readable(value)}</text>')
-        x = float(place(share * right, low).split(",")[0])
-        steps = share * right
-        label = f"{steps / 1e6:.3g} M steps" if right >= 1e5 else f"{steps:.0f} steps"
-        anchor = "end" if share == 1 else "start" if share == 0 else "middle"
+        parts.append(f'<text x="{LEFT - 8}" y="{y:.1f}" class="end">{value:.10g}</text>')
+    for steps in (marks := ticks(0, right)):
+        x = float(place(steps, low).split(",")[0])
+        label = f"{steps / 1e6:g} M" if right >= 1e5 else f"{steps:g}"
+        label += " steps" if steps == marks[-1] else ""
+        anchor = "start" if steps == 0 else "end" if x > WIDTH - 50 else "middle"
         parts.append(f'<text x="{x:.1f}" y="{HEIGHT - 8}" text-anchor="{anchor}">{label}</text>')
     for column, kind, _ in reversed(LINES):
         points = [place(row[STEPS], row[column]) for row in rows if np.isfinite(row[column])]
         parts.append(f'<polyline class="{kind}" points="{" ".join(points)}"/>')
     legend = " ".join(f'<span class="{kind}">{words}</span>' for _, kind, words in LINES)
     return "".join(parts) + f"</svg><p class=legend>{legend}</p>"
+
+
+def ticks(low: float, high: float) -> list[float]:
+    """Return two to five round numbers between two limits: multiples of 1, 2 or 5 times 10^n."""
+    size = 10.0 ** floor(log10((high - low) / 4))
+    step = min(s * size for s in (1, 2, 5, 10) if s * size >= (high - low) / 4)
+    return [float(f"{k * step:.10g}") for k in range(ceil(low / step), floor(high / step) + 1)]
 
 
 def _replay(experiment: Experiment, seed: int, folder: Path) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import sys
 from collections.abc import Callable
@@ -161,6 +162,21 @@ def find_runs(folder: Path | str, warn: Warn = warn) -> list[Run]:
             f"there are no runs in {folder}: evolve some with `botschool es -f FILE.ini -s SEED`."
         )
     return [runs[seed] for seed in sorted(runs)]
+
+
+def problem_of(folder: Path | str) -> str:
+    """Return problem and algorithm, such as "PlanarHopper-v5, OpenAI-ES", from a checkpoint.
+
+    Return "" if the folder holds no checkpoint that can be read.
+    """
+    for path in sorted(Path(folder).glob("checkpointS*.npz")):
+        try:
+            with np.load(path, allow_pickle=False) as saved:
+                exp = json.loads(str(saved["botschool"]))["experiment"]["exp"]
+            return f"{exp['environment']}, {exp['algo']}"
+        except Exception:  # a damaged file can fail in any way
+            continue
+    return ""
 
 
 def read_curves(folder: Path | str, warn: Warn = warn) -> dict[int, np.ndarray]:

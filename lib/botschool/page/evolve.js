@@ -88,6 +88,15 @@ const CURVES = [
   ["post-evaluated", "episodes of the training"],
 ];
 
+// Returns two to five round numbers between two limits: multiples of 1, 2 or 5 times 10^n.
+function ticks(low, high) {
+  const size = 10 ** Math.floor(Math.log10((high - low) / 4));
+  const step = [1, 2, 5, 10].map((s) => s * size).find((s) => s >= (high - low) / 4);
+  const found = [];
+  for (let k = Math.ceil(low / step); k <= Math.floor(high / step); k++) found.push(+(k * step).toPrecision(10));
+  return found;
+}
+
 function drawCurve(chosen) {
   const { pen, width, height } = fitted(byId("curve"));
   const { rows } = result;
@@ -100,22 +109,26 @@ function drawCurve(chosen) {
   const all = lines.flatMap(([, line]) => line.map(([, fitness]) => fitness));
   const low = all.reduce((a, b) => Math.min(a, b));
   const high = Math.max(all.reduce((a, b) => Math.max(a, b)), low + 1e-9);
-  const x = (part) => 52 + part * (width - 62);
-  const y = (fitness) => height - 22 - ((fitness - low) / (high - low)) * (height - 46);
   pen.font = "12px system-ui, sans-serif";
+  const marks = ticks(low, high);
+  const left = 12 + Math.max(...marks.map((mark) => pen.measureText(show(mark)).width));
+  const x = (part) => left + part * (width - left - 10);
+  const y = (fitness) => height - 22 - ((fitness - low) / (high - low)) * (height - 46);
   pen.textBaseline = "middle";
-  for (const value of [low, (low + high) / 2, high]) {
+  for (const value of marks) {
     pen.fillStyle = colour("muted");
     pen.textAlign = "right";
-    pen.fillText(show(value), 46, y(value));
+    pen.fillText(show(value), left - 6, y(value));
     pen.globalAlpha = 0.35;
-    pen.fillRect(52, y(value), width - 62, 1);
+    pen.fillRect(left, y(value), width - left - 10, 1);
     pen.globalAlpha = 1;
   }
   pen.textAlign = "center";
-  for (const part of [0, 0.5, 1]) {
-    const text = total ? `generation ${Math.round(part * total)}` : `${+((part * chosen.steps) / 1e6).toFixed(2)} M steps`;
-    pen.fillText(text, between(x(part), 40, width - 44), height - 8);
+  const whole = total || chosen.steps / 1e6;
+  const along = ticks(0, whole);
+  for (const mark of along) {
+    const unit = mark < along.at(-1) ? "" : total ? " generations" : " M steps";
+    pen.fillText(mark + unit, between(x(mark / whole), 40, width - 44), height - 8);
   }
   for (const [name, line] of lines) {
     pen.strokeStyle = colour(name);
@@ -127,9 +140,9 @@ function drawCurve(chosen) {
   pen.textAlign = "left";
   pen.fillStyle = colour("orange");
   const [orange, muted] = CURVES[experiment.agent ? 2 : total ? 1 : 0];
-  pen.fillText(orange, 58, 9);
+  pen.fillText(orange, left + 6, 9);
   pen.fillStyle = colour("muted");
-  pen.fillText(muted, 190, 9);
+  pen.fillText(muted, left + 20 + pen.measureText(orange).width, 9);
   const told = lines.map(([name, line]) =>
     `${name === "orange" ? orange : muted} from ${show(line[0][1])} to ${show(line[count - 1][1])}`);
   byId("curve").setAttribute("aria-label", `Fitness against ${total ? "generations" : "steps"}: ${told.join("; ")}`);
