@@ -18,7 +18,7 @@ help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z%-]+:.*## / { sub("%", "N", $$1); printf "make %-14s %s\n", $$1, $$2 }' Makefile
 
 # A copy that `botschool course` has made has neither source nor wheels: it uses the botschool that is installed.
-ifeq ($(wildcard lib wheels),)
+ifeq ($(wildcard lib/botschool wheels),)
 BIN := $(patsubst %/,%,$(dir $(shell command -v botschool || echo .venv/bin/botschool)))
 READY := installed
 endif
@@ -138,7 +138,7 @@ clean: ## remove what the targets above set up; results stay
 .venv/.sources: .venv/.made FORCE
 	@tools/setup.sh sources
 
-ifneq ($(wildcard lib),)
+ifneq ($(wildcard lib/botschool),)
 .venv/.module: .venv/.tools .venv/.sources $(CPP_INPUTS)
 	@tools/setup.sh module
 else

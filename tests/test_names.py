@@ -6,6 +6,7 @@ import pytest
 
 import botschool.envs  # noqa: F401
 from botschool import config, problems
+from botschool.paths import own_file
 from botschool.problems.native import gym_id, own_name
 from botschool.rl import watch
 from botschool.rl.folder import run_of
@@ -109,3 +110,43 @@ def test_tensorboard_shows_distributions_of_the_native_engine(tmp_path):
         shown = log.Histograms(tag)[-1].histogram_value
         assert sum(shown.bucket) == shown.num > 100
         assert shown.min < shown.max == shown.bucket_limit[-1]
+
+
+@pytest.mark.parametrize(
+    ("name", "ours"),
+    [
+        ("ErPredprey.ini", "predprey.ini"),
+        ("data/experiments/ErDiscrim.ini", "discrim.ini"),
+        ("envSwingupCustom.ini", "swingup.ini"),
+        ("HopperBulletEnv-v5.ini", "hopper.ini"),
+        ("Acrobot.ini", "acrobot.ini"),
+    ],
+)
+def test_files_of_ours_are_found_by_names_of_the_chapter(name, ours, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert own_file(name, "experiments").name == ours
+    (tmp_path / "ErPredprey.ini").touch()
+    assert own_file("ErPredprey.ini", "experiments").parent.name == ""
+
+
+def test_what_is_no_name_of_ours_stays():
+    assert own_file("Hopper-v5.ini", "experiments").name == "Hopper-v5.ini"
+    assert own_file("../ErPredprey.ini", "experiments").name == "ErPredprey.ini"
+
+
+def test_enter_blames_what_is_missing(refused, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "x.ini").write_text("[EXP]\nenvironment = CartPole-v1\n")
+    assert "There is no genotype file missing.npy" in refused("enter", "missing.npy")
+    assert "There is no genotype file missing.npy" in refused(
+        ["enter", "missing.npy", "-f", "n.ini"]
+    )
+    assert "x.ini is not a genotype" in refused("enter", "x.ini")
+
+
+def test_showrobot_without_a_name_lists_the_robots(capsys):
+    from botschool.envs.showrobot import PYBULLETS, list_robots
+
+    list_robots()
+    told = capsys.readouterr().out
+    assert "Hopper" in told and all(name in told for name in PYBULLETS)

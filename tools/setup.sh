@@ -53,7 +53,7 @@ check_python() {
         fail "$candidate lacks its venv module:" \
             "$(remedy "python$version-venv" "python$version" "brew reinstall python@$version" \
                 "your system's package of Python's venv and ensurepip modules")"
-    [ -d lib ] || return 0  # nothing is compiled
+    [ -d lib/botschool ] || return 0  # nothing is compiled
     "$candidate" -c 'import os, sysconfig; os.stat(sysconfig.get_path("include") + "/Python.h")' 2>/dev/null ||
         fail "$candidate lacks the header files that the C++ module needs:" \
             "$(remedy "python$version-dev" "python$version-devel" "brew reinstall python@$version" \
@@ -62,7 +62,7 @@ check_python() {
 
 # CXX if it is set, else the first of the usual names (a Python may bring another one's name along).
 check_compiler() {
-    [ -d lib ] || return 0
+    [ -d lib/botschool ] || return 0
     if [ -n "${CXX:-}" ]; then
         have "${CXX%% *}" && return
         fail "CXX=$CXX names a C++ compiler that is not there: unset it or correct it"

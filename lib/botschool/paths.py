@@ -6,6 +6,7 @@ import importlib
 import importlib.util
 import multiprocessing
 import os
+import re
 import sys
 from functools import cache
 from pathlib import Path
@@ -58,15 +59,22 @@ def own_file(name: str | os.PathLike[str], folder: str = "") -> Path:
     """Return the file with this name, or botschool's own file in data/FOLDER.
 
     name: as the user wrote it, such as acrobot.ini or data/experiments/acrobot.ini. An existing
-    file comes first.
+    file comes first. Names as in the chapter and its library are understood, too: ErPredprey.ini is
+    predprey.ini, HopperBulletEnv-v5.ini is hopper.ini.
     """
     path = Path(name)
     if not path.exists() and not path.is_absolute() and ".." not in path.parts:
-        for place in (material() / "data" / folder / path, material() / path):
+        ours = material() / "data" / folder
+        for place in (ours / path, material() / path, ours / f"{_plain(path.stem)}{path.suffix}"):
             if place.is_file():
                 print(f"{name} is the one that comes with botschool: {place}", file=sys.stderr)
                 return place
     return path
+
+
+def _plain(name: str) -> str:
+    """Return the name of our file for a problem's name in the chapter's library."""
+    return re.sub(r"^(Er|env)(?=[A-Z])|(BulletEnv(-v\d+)?|Custom)$", "", name).lower()
 
 
 def look_here(module: str) -> None:

@@ -58,13 +58,14 @@ def plotelites(
 @app.command(epilog="Example: botschool showrobot minitaur --sheet minitaur.png")
 def showrobot(
     name: Annotated[
-        str,
+        str | None,
         typer.Argument(
             help="A locomotor, balancebot, a model of PyBullet (kuka, minitaur, r2d2 ...), or a "
-            ".urdf or .xml file.",
+            ".urdf or .xml file; without a name: list the robots.",
             metavar="NAME",
+            show_default=False,
         ),
-    ],
+    ] = None,
     video: Annotated[
         Path | None, typer.Option(help="Write a film of each joint's range.", metavar="FILE")
     ] = None,
@@ -73,6 +74,9 @@ def showrobot(
     ] = None,
 ) -> None:
     """Show a robot: a window with a slider for each joint and for gravity, a film or a sheet."""
-    from botschool.envs.showrobot import show_robot
+    from botschool.envs.showrobot import list_robots, show_robot
 
-    show_robot(name, video, sheet)
+    if name is None:
+        list_robots()
+    else:
+        show_robot(name, video, sheet)

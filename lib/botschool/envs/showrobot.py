@@ -192,6 +192,14 @@ def find_model(name: str) -> tuple[Path, tuple[str, ...]]:
     raise BotschoolError(f"There is no robot '{name}' (nor is it a .urdf or .xml file); {hint}")
 
 
+def list_robots() -> None:
+    """Print the robots that botschool showrobot shows by name."""
+    print(f"locomotors: {', '.join([*BODIES, 'balancebot'])}")
+    print(f"models of PyBullet: {', '.join(PYBULLETS)} (others by their files' names)")
+    print("your own: the name of a .urdf or .xml file")
+    print("To show one: botschool showrobot hopper; without a display add --sheet hopper.png")
+
+
 def _of_pybullet(word: str) -> Path | None:
     """Return a model of pybullet_data by its name or its file's name."""
     folder = bullet.data_folder()

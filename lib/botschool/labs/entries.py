@@ -15,6 +15,7 @@ from botschool.errors import BotschoolError
 from botschool.labs.declare import load_lab
 from botschool.labs.saved import member
 from botschool.output import save_npz
+from botschool.paths import own_file
 from botschool.policies.policy import Policy
 from botschool.problems.base import Problem
 from botschool.render.watch import read_genotype
@@ -68,8 +69,8 @@ def write_entry(genotype: Path, experiment: Path | None, name: str, output: Path
 
     experiment: an .ini file; None for a run of a laboratory, whose folders tell the experiment.
     """
-    told = load(experiment) if experiment else _of_laboratory(genotype)
-    numbers = read_genotype(genotype)
+    numbers = read_genotype(genotype := own_file(genotype, "genotypes"))
+    told = load(own_file(experiment, "experiments")) if experiment else _of_laboratory(genotype)
     parts = to_dict(told)
     about = json.dumps({"exp": parts["exp"], "policy": parts["policy"]})
     name = " ".join(name.split())[:MAX_NAME]

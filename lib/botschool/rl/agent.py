@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,6 +14,7 @@ from gymnasium import spaces
 
 from botschool.errors import BotschoolError
 from botschool.output import save_bytes
+from botschool.problems.base import Interrupted
 from botschool.rl import weights
 from botschool.rl.environments import described, make
 from botschool.rl.folder import RunFolder
@@ -154,18 +155,25 @@ def _fill(model: BaseAlgorithm, path: Path, normalised: bool) -> dict[str, np.nd
 
 
 def play(
-    agent: Agent | NativeAgent, envs: Sequence[gymnasium.Env], seeds: Sequence[int]
+    agent: Agent | NativeAgent,
+    envs: Sequence[gymnasium.Env],
+    seeds: Sequence[int],
+    stopping: Callable[[], bool] = lambda: False,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Play one episode in each environment, in lockstep.
 
-    Return the returns (n,), float64, and the lengths (n,), int64.
+    Return the returns (n,), float64, and the lengths (n,), int64. Raises Interrupted when
+    `stopping()` is true.
     """
     with libraries_kept():
-        return _play(agent, envs, seeds)
+        return _play(agent, envs, seeds, stopping)
 
 
 def _play(
-    agent: Agent | NativeAgent, envs: Sequence[gymnasium.Env], seeds: Sequence[int]
+    agent: Agent | NativeAgent,
+    envs: Sequence[gymnasium.Env],
+    seeds: Sequence[int],
+    stopping: Callable[[], bool],
 ) -> tuple[np.ndarray, np.ndarray]:
     n = len(envs)
     pairs = zip(envs, seeds, strict=True)
@@ -173,6 +181,8 @@ def _play(
     returns, lengths = np.zeros(n), np.zeros(n, dtype=np.int64)
     running, starts, state = np.ones(n, dtype=bool), np.ones(n, dtype=bool), None
     while running.any():
+        if stopping():
+            raise Interrupted
         actions, state = agent.act(stacked(observations), state, starts)
         starts[:] = False
         for i in np.flatnonzero(running).tolist():

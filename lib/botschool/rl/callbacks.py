@@ -12,6 +12,7 @@ from gymnasium import spaces
 from stable_baselines3.common.callbacks import BaseCallback
 from stable_baselines3.common.on_policy_algorithm import OnPolicyAlgorithm
 
+from botschool.problems.base import Interrupted
 from botschool.rl.agent import Agent, play, save_model
 from botschool.rl.environments import make
 from botschool.rl.folder import Evaluations, RunFolder
@@ -20,6 +21,9 @@ from botschool.seeds import POST_EVALUATION_SEED
 
 SAVE_SECONDS = 60.0
 """Seconds between two saves of the last model; each post-evaluation saves it, too."""
+
+PATIENCE = 0.5
+"""Seconds that a post-evaluation may still take when the user stops the training."""
 
 REPORT_SECONDS = 0.2
 RECENT = 100
@@ -41,9 +45,16 @@ class PostEvaluation(BaseCallback):
     """
 
     def __init__(
-        self, run: RunFolder, settings: Settings, report: Report, stopping: Callable[[], bool]
+        self,
+        run: RunFolder,
+        settings: Settings,
+        report: Report,
+        stopping: Callable[[], bool],
+        hurrying: Callable[[], bool],
     ) -> None:
+        """Prepare the episodes; hurrying: whether the user waits for the end of the training."""
         super().__init__()
+        self._hurrying, self._asked = hurrying, 0.0
         self.run, self.settings = run, settings
         self.report, self.stopping = report, stopping
         self.found: Evaluations | None = None
@@ -58,6 +69,8 @@ class PostEvaluation(BaseCallback):
 
     def _on_step(self) -> bool:
         steps, now = self.num_timesteps, time.monotonic()
+        if self.found is None:
+            raise Stopped
         due = steps // self._every > self.found.steps[-1] // self._every
         if due and steps < self.settings.steps:
             self._evaluate()
@@ -87,7 +100,11 @@ class PostEvaluation(BaseCallback):
     def _evaluate(self) -> None:
         scaling = self.model.get_vec_normalize_env()
         agent = Agent(self.model, None if scaling is None else scaling.normalize_obs)
-        returns, lengths = play(agent, self._envs, self._seeds)
+        try:
+            returns, lengths = play(agent, self._envs, self._seeds, self._late)
+        except Interrupted:  # these episodes do not count
+            self.save()
+            return
         best = -np.inf if self.found is None else self.found.best
         self._append(returns, lengths)
         if returns.mean() >= best:  # of two equal ones, keep the one that was trained longer
@@ -98,6 +115,13 @@ class PostEvaluation(BaseCallback):
         self.logger.record("eval/mean_ep_length", float(lengths.mean()))
         self.logger.record("time/total_timesteps", self.num_timesteps, exclude="tensorboard")
         self.report(self.num_timesteps, self.found)
+
+    def _late(self) -> bool:
+        """Return whether the user has waited for PATIENCE seconds."""
+        now = time.monotonic()
+        if not self._hurrying():
+            self._asked = now
+        return now > self._asked + PATIENCE
 
     def _append(self, returns: np.ndarray, lengths: np.ndarray) -> None:
         new = Evaluations(np.array([self.num_timesteps]), returns[None], lengths[None])

@@ -94,11 +94,14 @@ def learn(
     stopping: Callable[[], bool] = lambda: False,
     events: Path | None = None,
     threads: int = 1,
-) -> tuple[RunFolder, Evaluations]:
+    hurrying: Callable[[], bool] | None = None,
+) -> tuple[RunFolder, Evaluations | None]:
     """Train with these settings in a new folder, and call `started` with it as soon as it exists.
 
     Saves everything and ends early when `stopping()` is true. Writes curves for TensorBoard to the
-    folder, and to `events` if given. threads: for the native engine. Raises BotschoolError.
+    folder, and to `events` if given. threads: for the native engine. hurrying: whether a user waits
+    for the end, so that a long post-evaluation is left out; None: as `stopping`. Return no
+    post-evaluations if the first one was left out. Raises BotschoolError.
     """
     if settings.engine == "native":
         return native.learn(settings, folder, report, started, stopping, events, threads)
@@ -109,7 +112,7 @@ def learn(
         run = next_folder(folder, settings.algo, settings.env)
         settings.save(run.config)
         started(run)
-        watching = PostEvaluation(run, settings, report, stopping)
+        watching = PostEvaluation(run, settings, report, stopping, hurrying or stopping)
         try:
             _learn(model, watching, events)
         except BotschoolError:
@@ -290,7 +293,10 @@ def resume_command(folder: Path, workers: int, terminal: bool) -> bool:
         return not stopping()
 
 
-def _print_result(run: RunFolder, found: Evaluations, settings: Settings) -> None:
+def _print_result(run: RunFolder, found: Evaluations | None, settings: Settings) -> None:
+    if found is None:
+        print(f"stopped during the first post-evaluation; last model: {run.last}", flush=True)
+        return
     stopped = found.steps[-1] < settings.steps
     again = f"; to continue: botschool rl train --resume {run.path}"
     print(

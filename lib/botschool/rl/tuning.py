@@ -220,12 +220,18 @@ def _train(plan: Plan, trial: Trial, given: dict[str, Any], stopping: Callable[[
         report = reporter()
         try:
             _, found = learn(
-                settings, plan.path / "trials", report, stopping=lambda: pruned or stopping()
+                settings,
+                plan.path / "trials",
+                report,
+                stopping=lambda: pruned or stopping(),
+                hurrying=stopping,
             )
         except BotschoolError as error:
             if "broke down" not in str(error):
                 raise
             return -1e9, TrialState.PRUNED  # its numbers have overflowed
+        if found is None:
+            return 0.0, TrialState.FAIL
         report(0, found)
         ends.append(found.last)
         if pruned or stopping():

@@ -88,8 +88,8 @@ class Coevo2Config(AscentConfig):
 
     evolving: str = hyper(
         "best",
-        "which candidates evolve in a generation",
-        choices={"best": "the best against the chosen competitors", "random": "drawn at random"},
+        "which selsize individuals a generation tries to improve",
+        choices={"best": "those that do best against its competitors", "random": "any of them"},
     )
 
 

@@ -30,7 +30,7 @@ RELEASED = (
     "LICENSE", ".gitignore",
 )  # fmt: skip
 """At the top of the repository; other files are not copied (exercise 10 builds envs/)."""
-COMPILED = re.compile(r"lib/|pyproject\.toml$|tools/(material|build_backend)")
+COMPILED = re.compile(r"lib/(?!walkthroughs/)|pyproject\.toml$|tools/(material|build_backend)")
 """Only in a copy that compiles botschool."""
 WHEELS = "wheels"
 """In a copy that installs botschool: a folder for its wheels."""
@@ -39,7 +39,7 @@ MANIFEST = ".release.json"
 START = "exercises/README.md"
 """The students' start page; the copy gets it as README.md, too."""
 _WITHHELD = re.compile(
-    r"docs/(reports/)?(instructor|answer|solution|architecture|algorithms|chapter|cluster|results\.|evolution|images/learning)"
+    r"docs/(reports/)?(instructor|answer|solution|architecture|algorithms|cluster|results\.|evolution|images/learning)"
     r"|^exercises/ex\d\d_[^/]*/slips\.py$|^lib/(?!botschool/labs/lab\d\d\.).*\.md$|^docs/book/|^tools/(figures|studies)/"
     r"|(^|/)(__pycache__|\..*_cache|results)/"
     r"|\.(pyc|so|pyd|dylib|dll|ipynb|egg-info)$|(^|/)(?!\.gitignore$)\.[^/]*$",
@@ -94,7 +94,8 @@ def release(
     root, target = root.resolve(), target.absolute()
     check_trusted(root)  # a repository's settings may name programs that git runs
     manifest = _check(root, target)
-    compiled = compiled and not wheels and (root / "lib").is_dir()
+    source = [path for path in root.glob("lib/*") if path.name != "walkthroughs"]
+    compiled = compiled and not wheels and bool(source)
     for number in sorted(numbers or ()):
         folder_of(number, root)
     numbers = set(exercise_numbers(root) if numbers is None else numbers)
@@ -202,7 +203,7 @@ def _build(root: Path, made: Path, numbers: set[int], compiled: bool) -> None:
         place = made / path.relative_to(root)
         place.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(path, place)
-        _change(place, lambda text: _NOT_RELEASED.sub("", text))
+        _change(place, lambda text: _without_tests(_NOT_RELEASED.sub("", text)))
     for solution, place in pairs(root):
         if _number(place, root) in numbers:
             released = made / place.relative_to(root)
@@ -219,6 +220,12 @@ def _build(root: Path, made: Path, numbers: set[int], compiled: bool) -> None:
         _change(start, lambda text: _rows(text, start.parent))
         text = start.read_text(encoding="utf-8").replace("](ex", "](exercises/ex")
         (made / "README.md").write_text(text, encoding="utf-8", newline="\n")
+
+
+def _without_tests(text: str) -> str:
+    """Return a text whose tables lack the last column, if it names the repository's tests."""
+    text = re.sub(r"^(\|.*\|) test \|\n(\|---\|---\|)---\|$", r"\1\n\2", text, flags=re.MULTILINE)
+    return re.sub(r"^(\|.*\|)[^|\n]*`tests/[^|\n]*\|$", r"\1", text, flags=re.MULTILINE)
 
 
 def _packed(grader: str, root: Path, folder: str) -> str:
