@@ -138,9 +138,7 @@ def test_enter_blames_what_is_missing(refused, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "x.ini").write_text("[EXP]\nenvironment = CartPole-v1\n")
     assert "There is no genotype file missing.npy" in refused("enter", "missing.npy")
-    assert "There is no genotype file missing.npy" in refused(
-        ["enter", "missing.npy", "-f", "n.ini"]
-    )
+    assert "There is no genotype file missing.npy" in refused("enter", "missing.npy", "-f", "n.ini")
     assert "x.ini is not a genotype" in refused("enter", "x.ini")
 
 

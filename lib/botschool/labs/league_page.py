@@ -109,7 +109,11 @@ def _replay(league: League, name: str, places: Sequence[Ranked], folder: Path) -
     neurons = policy.spec.inputs, policy.spec.outputs
     write_replay(page, TITLES[name], about, [play], scene.fps, neurons, scene)
     inside = escape(page.read_text(encoding="utf-8"), quote=True)
-    return f'<iframe title="{escape(about)}" loading="lazy" srcdoc="{inside}"></iframe>'
+    # as high as its content, so that the bar below it hides no chart
+    fit = "this.style.height=this.contentDocument.documentElement.scrollHeight+2+'px'"
+    return (
+        f'<iframe title="{escape(about)}" loading="lazy" onload="{fit}" srcdoc="{inside}"></iframe>'
+    )
 
 
 def _pair(league: League, own: np.ndarray) -> tuple[np.ndarray, str]:
