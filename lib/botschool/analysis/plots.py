@@ -75,10 +75,10 @@ def plot_stat(
     with new_figure(output) as figure:
         axes = figure.add_subplot()
         if len(experiments) > 1:
-            for (name, curves), colour in zip(experiments.items(), _cycle(), strict=False):
+            for (name, curves), colour in zip(experiments.items(), cycle(), strict=False):
                 label = f"{name}, {_of_runs(curves)}"
                 _draw_group(axes, curves, words.column, colour, label, singles=False)
-            _finish(axes, _common(problems.values(), words.labels[words.column]), words)
+            _finish(axes, common_title(problems.values(), words.labels[words.column]), words)
             return
         [(name, curves)] = experiments.items()
         name = problems.get(name, name)
@@ -138,15 +138,15 @@ def plot_ave(targets: Sequence[Path | str], output: Path | str | None = None) ->
         check_output(output, PICTURE_SUFFIXES)
     fitness = {
         name: np.array(list(read_fitness(folder, warn).values()))
-        for name, folder in _named(folders).items()
+        for name, folder in named(folders).items()
     }
-    _print_table(fitness)
+    print_table(fitness)
     try:
         with new_figure(output, height=max(5.0, 1.6 + 0.6 * len(fitness))) as figure:
             axes = figure.add_subplot()
             _draw_bars(axes, fitness)
             title = "best post-evaluated fitness, mean \u00b1 sd over runs"
-            axes.set_title(_common([problem_of(folder) for folder in folders], title))
+            axes.set_title(common_title([problem_of(folder) for folder in folders], title))
     except NoDisplay as error:
         print(f"note: {error}", file=sys.stderr)
 
@@ -173,7 +173,7 @@ def _read_targets(
     for target in trainings:
         for group, curves in read_trainings(target, bool(evolved), warn).items():
             trained.setdefault(group, {}).update(curves)
-    names = _named([*evolved, *trained])
+    names = named([*evolved, *trained])
     return (
         {name: evolved[folder] for name, folder in names.items() if folder in evolved},
         {name: trained[group] for name, group in names.items() if group in trained},
@@ -181,7 +181,7 @@ def _read_targets(
     )
 
 
-def _named(folders: Sequence[Path]) -> dict[str, Path]:
+def named(folders: Sequence[Path]) -> dict[str, Path]:
     """Return the shortest names that distinguish the folders: "acrobot", or "old/acrobot"."""
     if not folders:
         raise BotschoolError("nothing to show: name at least one folder of runs.")
@@ -193,7 +193,7 @@ def _named(folders: Sequence[Path]) -> dict[str, Path]:
     return names
 
 
-def _common(problems: Collection[str], title: str) -> str:
+def common_title(problems: Collection[str], title: str) -> str:
     """Return the title after what all folders have in common: problem and algorithm, or one."""
     for about in ({*problems}, {each.partition(",")[0] for each in problems}):
         if len(about) == 1 and all(about):
@@ -201,7 +201,7 @@ def _common(problems: Collection[str], title: str) -> str:
     return title
 
 
-def _cycle() -> Iterator[str]:
+def cycle() -> Iterator[str]:
     while True:
         yield from COLOURS
 
@@ -363,7 +363,7 @@ def format_steps(steps: float) -> str:
     return f"{steps:.6g}"
 
 
-def _print_table(fitness: dict[str, np.ndarray]) -> None:
+def print_table(fitness: dict[str, np.ndarray]) -> None:
     from rich import box
     from rich.console import Console
     from rich.table import Table
@@ -374,7 +374,7 @@ def _print_table(fitness: dict[str, np.ndarray]) -> None:
         table.add_column(column, justify="right", no_wrap=True)
     for name, values in fitness.items():
         numbers = (values.mean(), _sd(values), len(values), values.min(), values.max())
-        table.add_row(name, *(_number(number) for number in numbers))
+        table.add_row(name, *(written(number) for number in numbers))
     Console(highlight=False).print(table)
 
 
@@ -382,7 +382,7 @@ def _sd(values: np.ndarray) -> float:
     return float(values.std(ddof=1)) if len(values) > 1 else float("nan")
 
 
-def _number(value: float) -> str:
+def written(value: float) -> str:
     if isinstance(value, int):
         return str(value)
     return "-" if np.isnan(value) else readable(value)
@@ -390,7 +390,7 @@ def _number(value: float) -> str:
 
 def _draw_bars(axes: Axes, fitness: dict[str, np.ndarray]) -> None:
     labels = []
-    for row, ((name, values), colour) in enumerate(zip(fitness.items(), _cycle(), strict=False)):
+    for row, ((name, values), colour) in enumerate(zip(fitness.items(), cycle(), strict=False)):
         mean, sd = values.mean(), _sd(values)
         axes.barh(row, mean, height=0.6, color=colour, alpha=0.45)
         spread = 0.2 * np.sin(1.0 + 2.4 * np.arange(len(values)))
@@ -398,8 +398,8 @@ def _draw_bars(axes: Axes, fitness: dict[str, np.ndarray]) -> None:
         plus_minus = ""
         if len(values) > 1:
             axes.errorbar(mean, row, xerr=sd, color="black", capsize=6, lw=1.5, zorder=3)
-            plus_minus = f" \u00b1 {_number(sd)}"
-        labels.append(f"{name}\n{_number(mean)}{plus_minus}  (n = {len(values)})")
+            plus_minus = f" \u00b1 {written(sd)}"
+        labels.append(f"{name}\n{written(mean)}{plus_minus}  (n = {len(values)})")
     axes.set_yticks(range(len(labels)), labels)
     margin = 0.9 if len(labels) == 1 else 0.5
     axes.set_ylim(len(labels) - 1 + margin, -margin)

@@ -169,14 +169,21 @@ def problem_of(folder: Path | str) -> str:
 
     Return "" if the folder holds no checkpoint that can be read.
     """
+    exp = (told_by(folder) or {}).get("exp")
+    return f"{exp['environment']}, {exp['algo']}" if exp else ""
+
+
+def told_by(folder: Path | str) -> dict | None:
+    """Return the experiment of a folder's runs, for config.from_dict; None if none tells it."""
     for path in sorted(Path(folder).glob("checkpointS*.npz")):
         try:
             with np.load(path, allow_pickle=False) as saved:
-                exp = json.loads(str(saved["botschool"]))["experiment"]["exp"]
-            return f"{exp['environment']}, {exp['algo']}"
+                found = json.loads(str(saved["botschool"]))["experiment"]
+            assert found["exp"]["environment"] and found["exp"]["algo"]
+            return found
         except Exception:  # a damaged file can fail in any way
             continue
-    return ""
+    return None
 
 
 def read_curves(folder: Path | str, warn: Warn = warn) -> dict[int, np.ndarray]:

@@ -24,11 +24,75 @@ Folders = Annotated[
 
 
 @app.command(epilog="Example: botschool plotstat results -o curves.png")
-def plotstat(folders: Folders = None, output: Picture = None) -> None:
+def plotstat(
+    folders: Folders = None,
+    output: Picture = None,
+    box: Annotated[
+        bool, typer.Option("--box", help="Draw a box of each folder's results instead of curves.")
+    ] = False,
+) -> None:
     """Plot fitness against steps: one run, or mean and band of all runs in a folder."""
+    if box:
+        from botschool.analysis.comparison import plot_boxes
+
+        plot_boxes(folders or [Path(".")], output)
+        return
     from botschool.analysis.plots import plot_stat
 
     plot_stat(folders or [Path(".")], output)
+
+
+@app.command(epilog="Example: botschool compare results/openaies results/cmaes -o boxes.png")
+def compare(
+    first: Annotated[Path, typer.Argument(help="Folder of runs.", metavar="A")],
+    second: Annotated[Path, typer.Argument(help="Another one.", metavar="B")],
+    output: Picture = None,
+) -> None:
+    """Compare the results of two folders: medians, intervals, a test, the size of the effect.
+
+    Each run counts once, by its best post-evaluated fitness. The intervals come from a bootstrap of
+    the runs. The test asks how often chance alone would part the runs as clearly.
+    """
+    from botschool.analysis.comparison import compare_command
+
+    compare_command((first, second), output)
+
+
+@app.command(
+    epilog="Example: botschool landscape planarhopper.ini -g planarhopper.npy -o landscape.png"
+)
+def landscape(
+    file: Annotated[Path, typer.Argument(help="Experiment file.", metavar="FILE.ini")],
+    genotype: Annotated[
+        Path, typer.Option("-g", "--genotype", help="The robot in the middle.", metavar="FILE.npy")
+    ],
+    output: Picture = None,
+    seed: Annotated[
+        int, typer.Option("-s", "--seed", min=0, max=2**31, help="Of directions and episodes.")
+    ] = 1,
+    points: Annotated[int, typer.Option(min=3, max=501, help="Points of each direction.")] = 41,
+    reach: Annotated[
+        float,
+        typer.Option(min=1e-6, max=1e6, help="Distance of the border; 1: the genotype's length."),
+    ] = 0.4,
+    episodes: Annotated[int, typer.Option(min=1, max=10_000, help="Episodes of each point.")] = 5,
+    workers: Annotated[int, typer.Option("-w", "--workers", min=1, max=1024, help="Cores.")] = 1,
+) -> None:
+    """Draw the fitness around a robot, along two random directions of its parameters.
+
+    All points play the same episodes. The normalisation and, for an evolved body, its parameters
+    belong to the genotype: the first stays, the others change like all parameters.
+    """
+    from botschool.analysis.landscape import landscape_command
+    from botschool.cli.experiments import experiment_of
+    from botschool.paths import own_file
+    from botschool.render.watch import read_genotype
+
+    path = own_file(genotype, "genotypes")
+    robot, experiment = read_genotype(path), experiment_of(file)
+    odd = points + 1 - points % 2  # so that the robot is the point in the middle
+    where = (output, seed, odd, reach, episodes, workers)
+    landscape_command(experiment, robot, path.name, *where)
 
 
 @app.command(epilog="Example: botschool plotave results/acrobot results/pendulum -o average.png")
@@ -53,6 +117,24 @@ def plotelites(
     from botschool.analysis.elites import plot_elites
 
     plot_elites(folder, seed, output, replay)
+
+
+@app.command(epilog="Example: botschool plotmatrix results/walkers -o matrix.png")
+def plotmatrix(
+    folder: Annotated[Path, typer.Argument(help="Folder of runs.")] = Path("."),
+    seed: Annotated[
+        int | None, typer.Option("-s", "--seed", help="Of co-evolution: the run's seed.")
+    ] = None,
+    output: Picture = None,
+) -> None:
+    """Draw who does how well with whom.
+
+    With evolved bodies (planarbodybrain.ini): the brain of each run in the body of each other run,
+    measured in new episodes. With predators and prey: the newest generation, each against each.
+    """
+    from botschool.analysis.matrix import plot_matrix
+
+    plot_matrix(folder, seed, output)
 
 
 @app.command(epilog="Example: botschool showrobot minitaur --sheet minitaur.png")
