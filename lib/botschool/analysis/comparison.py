@@ -187,14 +187,14 @@ def draw_results(
 def _draw_boxes(axes: Axes, results: dict[str, np.ndarray]) -> None:
     labels = []
     for row, ((name, values), colour) in enumerate(zip(results.items(), cycle(), strict=False)):
-        box = axes.boxplot(
-            [values], positions=[row], widths=0.55, vert=False, whis=(0, 100),
-            patch_artist=True, medianprops={"color": "black", "lw": 2},
-        )  # fmt: skip
-        box["boxes"][0].set(facecolor=colour, alpha=0.35)
+        low, lower, median, upper, high = np.quantile(values, (0, 0.25, 0.5, 0.75, 1))
+        axes.plot((low, high), (row, row), color="black", lw=1, zorder=0.9)
+        axes.barh(row, upper - lower, left=lower, height=0.55, color="white", ec="black")
+        axes.barh(row, upper - lower, left=lower, height=0.55, color=colour, alpha=0.35)
+        axes.plot((median, median), (row - 0.27, row + 0.27), color="black", lw=2.5)
         spread = 0.16 * np.sin(1.0 + 2.4 * np.arange(len(values)))
         axes.plot(values, row + spread, "o", color=colour, mec="white", mew=0.6, ms=6, zorder=3)
-        labels.append(f"{name}\nmedian {readable(float(np.median(values)))} (n = {len(values)})")
+        labels.append(f"{name}\nmedian {readable(median)} (n = {len(values)})")
     axes.set_yticks(range(len(labels)), labels)
     axes.set_ylim(len(labels) - 0.4, -0.6)
     axes.set_xlabel(f"{FITNESS}; box: quartiles, line: median")

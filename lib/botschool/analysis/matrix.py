@@ -95,7 +95,7 @@ def _swaps(experiment: Experiment, folder: Path) -> Table:
         f"another one's {readable(foreign)} (rows and columns: seeds "
         f"{', '.join(str(run.seed) for run in runs)})"
     )
-    title = f"{experiment.exp.environment}: brains in bodies"
+    title = f"{experiment.exp.environment}: brains in bodies "
     return matrix, "brain of run", "body of run", title
 
 
@@ -116,16 +116,19 @@ def _meetings(experiment: Experiment, folder: Path, seed: int | None) -> Table:
         raise BotschoolError(f"{path} is missing or damaged: let the run save it again.") from None
     prey = fitness[len(fitness) // 2 :]
     matrix = matrix[np.argsort(-matrix.mean(axis=1), kind="stable")]
-    if prey.shape == (matrix.shape[1], matrix.shape[0]):
+    order = ""  # of competitors that are not all saved, the file keeps the order
+    if prey.shape == (matrix.shape[1], len(matrix)):
         matrix = matrix[:, np.argsort(-prey.mean(axis=1), kind="stable")]
+        order = ", best first"
     one, other = problem.sides
     print(f"generation {generation}: mean return of the {one}s {readable(matrix.mean())}")
     title = f"{experiment.exp.environment}, seed {seed}, generation {generation}"
-    return matrix, f"{one}, best first", f"{other}, best first", title
+    return matrix, f"{one}, best first", f"{other}{order}", title
 
 
 def _draw(axes: Axes, matrix: np.ndarray, rows: str, columns: str, title: str) -> None:
-    image = axes.imshow(matrix, cmap="viridis")
+    long = max(matrix.shape) > 3 * min(matrix.shape)
+    image = axes.imshow(matrix, cmap="viridis", aspect="auto" if long else "equal")
     middle = (np.min(matrix) + np.max(matrix)) / 2
     if max(matrix.shape) <= MOST:
         for (i, j), value in np.ndenumerate(matrix):
