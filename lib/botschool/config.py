@@ -84,6 +84,8 @@ ARENA = "ARENA"
 """A section for experiments with a declared arena."""
 ENV = "ENV"
 """A section of evorobotpy3: its lines are options of the environment."""
+TUNE = "TUNE"
+"""A section for `botschool tune`: values of hyperparameters to try."""
 ALIASES = {
     f.metadata["alias"]: f.name.lower()
     for entry in ALGORITHMS.values()
@@ -105,6 +107,8 @@ class Experiment:
     path: Path | None = field(default=None, compare=False)
     notes: tuple[str, ...] = field(default=(), compare=False)
     """What of the file means something else here, in sentences."""
+    tune: dict[str, Entry] = field(default_factory=dict, compare=False)
+    """The section [TUNE], which botschool.analysis.tuning reads."""
 
     @property
     def competitive(self) -> bool:
@@ -132,7 +136,7 @@ def load(path: str | PathLike[str]) -> Experiment:
 
     Raises BotschoolError; its sentence names the file, the line, the error and the remedy.
     """
-    return _experiment(read_sections(path, (*SECTIONS, ARENA, ENV), ALIASES), path)
+    return _experiment(read_sections(path, (*SECTIONS, ARENA, ENV, TUNE), ALIASES), path)
 
 
 def to_dict(experiment: Experiment) -> dict[str, dict[str, Any]]:
@@ -210,7 +214,8 @@ def _experiment(sections: dict[str, dict[str, Entry]], path: str | PathLike[str]
     for keys, sentence in (*conflicts(policy), *ALGORITHMS[exp.algo].conflicts(algo)):
         raise refusal(path, max(lines.get(key.lower(), 0) for key in keys), sentence)
     policy, note = one_layer(policy)
-    return Experiment(exp, policy, algo, arena, Path(path), (*notes, *note))
+    marked = sections.get(TUNE, {})
+    return Experiment(exp, policy, algo, arena, Path(path), (*notes, *note), marked)
 
 
 def _take_options(exp: Exp, entries: dict[str, Entry], path: str | PathLike[str]) -> list[str]:

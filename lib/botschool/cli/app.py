@@ -17,13 +17,14 @@ from typing import Annotated, Any, NoReturn
 import typer
 
 from botschool import __version__
-from botschool.cli import course, es, examples, labs, page, plots, rl, tournament
+from botschool.cli import course, es, examples, labs, page, plots, rl, tournament, tune
 from botschool.errors import BotschoolError
 
 UsageError: Any = typer.BadParameter.__base__
 
 GROUPS = {
     es: None,
+    tune: None,
     examples: None,
     plots: None,
     page: None,

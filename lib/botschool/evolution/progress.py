@@ -13,6 +13,9 @@ from botschool.terminal import progress_bar
 SECONDS = 0.1
 """Seconds between two messages; a generation may take less than a millisecond."""
 
+SAMPLE, LONG = 3.0, 60.0
+"""Seconds of a run that tell its speed, and seconds left that are worth a line."""
+
 Bar = tuple[float, int, int, str]
 """Arguments for a progress bar: see botschool.terminal."""
 
@@ -42,10 +45,26 @@ def messages(terminal: bool, send: Callable[[Any], None]) -> Iterator[Callable[[
     newest: Run | None = None
     lines: list[str] = []
     printed, sent = 0, -SECONDS
+    began: tuple[float, float] | None = None
+    expected = terminal  # the progress bar says it
+
+    def expect(run: Run) -> None:
+        """Say once, after some seconds, how long a long run will take."""
+        nonlocal began, expected
+        share, now = run.limit.share(run), time.monotonic()
+        began = began or (now, share)
+        if now - began[0] < SAMPLE or share <= began[1]:
+            return
+        left = (now - began[0]) * (1 - share) / (share - began[1])
+        expected = True
+        if left >= LONG:
+            lines.append(f"seed {run.seed}: about {lasting(left)} left at this speed")
 
     def report(run: Run) -> None:
         nonlocal newest, printed, sent
         newest = run
+        if not expected:
+            expect(run)
         if not terminal and run.record.generation > printed:
             lines.append(run.line())
             printed = run.record.generation
@@ -67,6 +86,15 @@ def messages(terminal: bool, send: Callable[[Any], None]) -> Iterator[Callable[[
         yield report
     finally:
         flush()
+
+
+def lasting(seconds: float) -> str:
+    """Return a duration in words: 40 seconds, 3 minutes, 2.5 hours, 4 days."""
+    for unit, size in (("days", 86_400), ("hours", 3600), ("minutes", 60)):
+        if seconds >= 2 * size:
+            return f"{seconds / size:.2g} {unit}"
+    whole = max(1, round(seconds))
+    return "1 second" if whole == 1 else f"{whole} seconds"
 
 
 def bar(run: Run) -> Bar:

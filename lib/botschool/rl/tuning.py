@@ -5,14 +5,12 @@ FOLDER/tune/ppo/CartPole-v1/
   best.yaml     the hyperparameters of the best trial, for `botschool rl train --settings`
   trials/       the trainings
 
-Trial 0 is the starting point: the entry of defaults.yaml. A trial's choices depend only on the seed
-and on the trials before it, so an interrupted tuning ends like an uninterrupted one.
+Trial 0 is the starting point: the entry of defaults.yaml.
 """
 
 from __future__ import annotations
 
 import sys
-import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,30 +19,18 @@ from typing import TYPE_CHECKING, Any
 import yaml
 
 from botschool.errors import BotschoolError
-from botschool.inifile import shown
-from botschool.lock import locked
-from botschool.output import cannot_write, save_bytes
+from botschool.output import save_bytes
 from botschool.problems.native import gym_id
 from botschool.rl.folder import Evaluations, name_of
-from botschool.rl.model import choose, require
+from botschool.rl.model import choose
 from botschool.rl.native.choosing import tell_engine
+from botschool.rl.study import Log, complete, ended, run_trials
 from botschool.rl.training import learn
 from botschool.terminal import readable, stoppable
 
 if TYPE_CHECKING:
     from optuna import Study, Trial
-
-STARTUP = 5
-"""Random trials at the start, which are never pruned."""
-
-
-@dataclass(frozen=True)
-class Log:
-    """Any number between two limits, uniform on a logarithmic scale."""
-
-    low: float
-    high: float
-
+    from optuna.trial import TrialState
 
 LEARNING = {
     "learning_rate": Log(1e-5, 1e-2),
@@ -108,92 +94,24 @@ def tune(
     stopping: Callable[[], bool] = lambda: False,
 ) -> bool:
     """Run trials up to the plan's number; return False if stopped. Raises BotschoolError."""
-    require("optuna")
-    import optuna
-
-    optuna.logging.set_verbosity(optuna.logging.ERROR)
     choose(plan.algo, plan.env, **plan.options)  # refuse now what no trial could train
-    try:
-        plan.path.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise cannot_write(plan.path, error.strerror or str(error)) from error
-    with locked(plan.path, "the tuning"):
-        return _tune(plan, say, stopping)
 
+    def attempt(trial: Trial, given: dict[str, Any]) -> tuple[float, TrialState]:
+        if "net_arch" in given:
+            given["net_arch"] = yaml.safe_load(given["net_arch"])
+        return _train(plan, trial, given, stopping)
 
-def _tune(plan: Plan, say: Callable[[str], None], stopping: Callable[[], bool]) -> bool:
-    import optuna
-
-    study = _study(plan, 0)
-    _check_same(study, plan)
-    for trial in study.get_trials(states=[optuna.trial.TrialState.RUNNING]):
-        study.tell(trial.number, state=optuna.trial.TrialState.FAIL)  # it was interrupted
-    while (number := len(_ended(study))) < plan.trials:
-        study = _study(plan, number)
-        trial = study.ask()
-        given = _choices(plan.algo, trial) if number else {}
-        value, state = _train(plan, trial, given, stopping)
-        if stopping():
-            study.tell(trial, state=optuna.trial.TrialState.FAIL)
-            return False
-        trial.set_user_attr("given", given)
-        study.tell(trial, value if state == optuna.trial.TrialState.COMPLETE else None, state)
-        how = "" if state == optuna.trial.TrialState.COMPLETE else ", broken off"
-        told = " ".join(f"{name}={_short(each)}" for name, each in given.items()) or "the start"
-        say(f"trial {number}: {readable(value)}{how}  ({told})")
-        _save_best(plan, study)
-    return True
-
-
-def _study(plan: Plan, number: int) -> Study:
-    """Return the study, with a sampler for its trial `number`."""
-    import optuna
-    from optuna.storages.journal import JournalFileBackend
-
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", optuna.exceptions.ExperimentalWarning)
-        storage = optuna.storages.JournalStorage(JournalFileBackend(str(plan.path / "study.log")))
-        return optuna.create_study(
-            study_name="tune",
-            storage=storage,
-            load_if_exists=True,
-            direction="maximize",
-            sampler=optuna.samplers.TPESampler(
-                seed=1000 * plan.options["seed"] + number, n_startup_trials=STARTUP
-            ),
-            pruner=optuna.pruners.MedianPruner(n_startup_trials=STARTUP, n_warmup_steps=1),
-        )
-
-
-def _ended(study: Study) -> list:
-    """Return the trials that have a result."""
-    from optuna.trial import TrialState
-
-    return study.get_trials(states=[TrialState.COMPLETE, TrialState.PRUNED])
-
-
-def _check_same(study: Study, plan: Plan) -> None:
-    now = {**plan.options, "seeds": plan.seeds}
-    before = {"seeds": 1, **study.user_attrs.get("options", now)}
-    for name, value in now.items():
-        if before.get(name) != value:
-            raise BotschoolError(
-                f"{plan.path} is a tuning with {name} = {shown(before.get(name))}, not "
-                f"{shown(value)}: change it back to continue, or choose another folder (-o)."
-            )
-    study.set_user_attr("options", now)
-
-
-def _choices(algo: str, trial: Trial) -> dict[str, Any]:
-    given = {}
-    for name, values in SPACES[algo].items():
-        if isinstance(values, Log):
-            given[name] = trial.suggest_float(name, values.low, values.high, log=True)
-        else:
-            given[name] = trial.suggest_categorical(name, values)
-    if "net_arch" in given:
-        given["net_arch"] = yaml.safe_load(given["net_arch"])
-    return given
+    return run_trials(
+        plan.path,
+        plan.options["seed"],
+        plan.trials,
+        {**plan.options, "seeds": plan.seeds},
+        SPACES[plan.algo],
+        attempt,
+        lambda study: _save_best(plan, study),
+        say,
+        stopping,
+    )
 
 
 def _train(plan: Plan, trial: Trial, given: dict[str, Any], stopping: Callable[[], bool]):
@@ -241,21 +159,15 @@ def _train(plan: Plan, trial: Trial, given: dict[str, Any], stopping: Callable[[
 
 
 def _save_best(plan: Plan, study: Study) -> None:
-    from optuna.trial import TrialState
-
-    if not study.get_trials(states=[TrialState.COMPLETE]):
+    if not complete(study):
         return
     best = study.best_trial
     text = (
-        f"# {plan.algo} on {plan.env}: the best of {len(_ended(study))} trials, with "
+        f"# {plan.algo} on {plan.env}: the best of {len(ended(study))} trials, with "
         f"{readable(best.value)} in its last post-evaluation.\n"
         + (yaml.safe_dump(best.user_attrs["given"], sort_keys=False, default_flow_style=None))
     )
     save_bytes(plan.best, text.encode())
-
-
-def _short(value: Any) -> str:
-    return f"{value:.3g}" if isinstance(value, float) else str(value).replace(" ", "")
 
 
 def tune_command(plan: Plan) -> bool:
