@@ -50,8 +50,8 @@ REPORTS = 8
 """How often a run is measured, so that a trial without prospects ends early."""
 EPISODES, FRESH = 20, 400_000
 """Episodes that measure a run's best robot, and what is added to the run's seed for them."""
-TOO_LARGE = -1e9
-"""Value of a trial whose numbers have grown without bound."""
+IMPOSSIBLE = -1e9
+"""Value of a trial whose values do not go together, or whose numbers grow without bound."""
 
 
 @dataclass(frozen=True)
@@ -192,8 +192,12 @@ def _attempt(
     for name in whole & given.keys():
         given[name] = round(float(given[name]))
     try:
+        experiment = changed(plan.experiment, given)
+    except BotschoolError:  # values that do not go together
+        return IMPOSSIBLE, TrialState.PRUNED
+    try:
         for seed in range(plan.seed, plan.seed + plan.seeds):
-            run = Run(changed(plan.experiment, given), seed, plan.workers, stopping)
+            run = Run(experiment, seed, plan.workers, stopping)
             value = 0.0
             for part in range(1, REPORTS + 1):
                 value = _measured(run, part * plan.steps / REPORTS)
@@ -206,7 +210,7 @@ def _attempt(
     except BotschoolError as error:
         if "fitness cannot be measured" not in str(error):
             raise
-        return TOO_LARGE, TrialState.PRUNED
+        return IMPOSSIBLE, TrialState.PRUNED
     return mean(np.array(ends)), TrialState.COMPLETE
 
 
@@ -237,7 +241,7 @@ def _save(plan: Plan, study: Study) -> None:
     comment = (
         f"# The best of {len(ended(study))} trials of botschool tune: mean return "
         f"{readable(best.value)} in {EPISODES} fresh episodes after {plan.steps} steps.\n"
-        "# The best of many was lucky, too: evolve it with other seeds, and use botschool compare.\n"
+        "# The best of many was lucky, too: compare it with the file on other seeds.\n"
     )
     text = comment + ini_text(changed(plan.experiment, best.user_attrs["given"]))
     save_bytes(plan.path / "best.ini", text.encode())

@@ -52,8 +52,9 @@ def messages(terminal: bool, send: Callable[[Any], None]) -> Iterator[Callable[[
         """Say once, after some seconds, how long a long run will take."""
         nonlocal began, expected
         share, now = run.limit.share(run), time.monotonic()
-        began = began or (now, share)
-        if now - began[0] < SAMPLE or share <= began[1]:
+        if began is None or share <= began[1]:  # nothing of the run itself is done yet
+            began = now, share
+        if now - began[0] < SAMPLE:
             return
         left = (now - began[0]) * (1 - share) / (share - began[1])
         expected = True
