@@ -16,6 +16,8 @@ from botschool import _core
 
 POST_EVALUATION_SEED = 100_000
 """Post-evaluation of a run with seed S uses seed S + 100000 and episodes 0, 1, ..."""
+NEW_EPISODES_SEED = 200_000
+"""Added to a run's seed: episodes that no training and no choice of a best robot has used."""
 
 
 Place = tuple[int, int, int, int]

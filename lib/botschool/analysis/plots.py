@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,6 +21,7 @@ from botschool.analysis.runs import (
     problem_of,
     read_curves,
     read_fitness,
+    read_fresh,
     read_stat,
     seed_of,
     warn,
@@ -31,6 +33,7 @@ from botschool.analysis.trainings import (
     read_trainings,
 )
 from botschool.errors import BotschoolError
+from botschool.evolution import fresh
 from botschool.output import cannot_write, check_output, written_whole
 from botschool.terminal import readable
 
@@ -47,14 +50,20 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#0
 
 FITNESS = "fitness (mean return of an episode)"
 RETURN = "mean return of an episode"
+ROBOTS = "best robots in fresh episodes"
 
 
 class NoDisplay(BotschoolError):
     """Raised if there is no screen to draw on."""
 
 
-Curves = dict[int, np.ndarray]
-"""Seed -> (generations, 6)."""
+class Curves(dict[int, np.ndarray]):
+    """Seed -> (generations, 6)."""
+
+    def __init__(self, *items: Any, fresh: dict[int, np.ndarray] | None = None) -> None:
+        """fresh: seed -> returns of the run's best robot in fresh episodes, where it has some."""
+        super().__init__(*items)
+        self.fresh = fresh or {}
 
 
 def plot_stat(
@@ -70,29 +79,42 @@ def plot_stat(
     was named; if its folder was named, it is left out with a warning. Raises BotschoolError.
     """
     evolved, trained, problems = _read_targets(targets, warn)
+    with new_figure(output) as figure:
+        draw_stat(figure, evolved, trained, problems)
+
+
+def draw_stat(
+    figure: Figure,
+    evolved: dict[str, Curves],
+    trained: dict[str, Curves],
+    problems: Mapping[str, str] = MappingProxyType({}),
+) -> None:
+    """Draw what `plot_stat` draws; evolved, trained: name -> runs; problems: name -> problem."""
     experiments = evolved | trained
     words = _Words.of(bool(evolved), bool(trained))
-    with new_figure(output) as figure:
-        axes = figure.add_subplot()
-        if len(experiments) > 1:
-            for (name, curves), colour in zip(experiments.items(), cycle(), strict=False):
-                label = f"{name}, {_of_runs(curves)}"
-                _draw_group(axes, curves, words.column, colour, label, singles=False)
-            _finish(axes, common_title(problems.values(), words.labels[words.column]), words)
-            return
-        [(name, curves)] = experiments.items()
-        name = problems.get(name, name)
-        if len(curves) == 1:
-            [number] = curves
-            _draw_run(axes, curves[number], words.labels)
-            _finish(axes, f"{name}, {words.number} {number}" if number >= 0 else name, words)
-        else:
-            runs = _of_runs(curves)
-            average = f"{words.labels[GENERATION_AVERAGE]}, {runs}"
-            main = f"{words.labels[words.column]}, {runs}"
-            _draw_mean(axes, curves, GENERATION_AVERAGE, COLOURS[1], average)
-            _draw_group(axes, curves, words.column, COLOURS[0], main)
-            _finish(axes, name, words)
+    axes = figure.add_subplot()
+    if len(experiments) > 1:
+        for (name, curves), colour in zip(experiments.items(), cycle(), strict=False):
+            label = f"{name}, {_of_runs(curves)}"
+            _draw_group(axes, curves, words.column, colour, label, singles=False)
+            _draw_fresh(axes, curves, colour)
+        _finish(axes, common_title(problems.values(), words.labels[words.column]), words)
+        return
+    [(name, curves)] = experiments.items()
+    name = problems.get(name, name)
+    if len(curves) == 1:
+        [number] = curves
+        _draw_run(axes, curves[number], words.labels)
+        title = f"{name}, {words.number} {number}" if number >= 0 else name
+    else:
+        runs = _of_runs(curves)
+        average = f"{words.labels[GENERATION_AVERAGE]}, {runs}"
+        main = f"{words.labels[words.column]}, {runs}"
+        _draw_mean(axes, curves, GENERATION_AVERAGE, COLOURS[1], average)
+        _draw_group(axes, curves, words.column, COLOURS[0], main)
+        title = name
+    _draw_fresh(axes, curves, "black")
+    _finish(axes, title, words)
 
 
 @dataclass(frozen=True)
@@ -128,7 +150,8 @@ class _Words:
 
 
 def plot_ave(targets: Sequence[Path | str], output: Path | str | None = None) -> None:
-    """Print and draw mean, standard deviation (n - 1) and n of the best post-evaluated fitness.
+    """Print and draw mean, standard deviation (n - 1), 95 % interval of the mean, and n of the
+    best robots' mean return in fresh episodes (read_fitness says when it is another number).
 
     Each folder of runs gives one row and one bar, each run a dot. The table is printed before the
     picture is drawn; without a display, a note replaces the picture. Raises BotschoolError.
@@ -145,7 +168,7 @@ def plot_ave(targets: Sequence[Path | str], output: Path | str | None = None) ->
         with new_figure(output, height=max(5.0, 1.6 + 0.6 * len(fitness))) as figure:
             axes = figure.add_subplot()
             _draw_bars(axes, fitness)
-            title = "best post-evaluated fitness, mean \u00b1 sd over runs"
+            title = f"{ROBOTS}, mean \u00b1 sd over runs"
             axes.set_title(common_title([problem_of(folder) for folder in folders], title))
     except NoDisplay as error:
         print(f"note: {error}", file=sys.stderr)
@@ -162,17 +185,19 @@ def _read_targets(
     trainings: list[Path] = []
     for target in map(Path, targets):
         if target.suffix == ".npy" and not target.is_dir():
-            runs = evolved.setdefault(target.parent, {})
+            runs = evolved.setdefault(target.parent, Curves())
             seed = seed_of(target)
             runs[-1 - len(runs) if seed is None else seed] = read_stat(target)
         elif has_trainings(target):
             trainings.append(target)
         else:
-            evolved.setdefault(target, {}).update(read_curves(target, warn))
+            evolved.setdefault(target, Curves()).update(read_curves(target, warn))
+    for folder, runs in evolved.items():
+        runs.fresh = read_fresh(folder, set(runs))
     trained: dict[Path, Curves] = {}
     for target in trainings:
         for group, curves in read_trainings(target, bool(evolved), warn).items():
-            trained.setdefault(group, {}).update(curves)
+            trained.setdefault(group, Curves()).update(curves)
     names = named([*evolved, *trained])
     return (
         {name: evolved[folder] for name, folder in names.items() if folder in evolved},
@@ -300,6 +325,30 @@ def _draw_mean(axes: Axes, curves: Curves, column: int, colour: str, label: str)
     axes.plot(steps, mean, color=colour, lw=2.2, label=label)
 
 
+def _draw_fresh(axes: Axes, curves: Curves, colour: str) -> None:
+    """Draw the best robots' mean return in fresh episodes at the end, with its 95 % interval."""
+    if not curves.fresh:
+        return
+    [returns, *others] = curves.fresh.values()
+    who = f"best robot in {len(returns)} fresh episodes"
+    if others:
+        returns = np.array([each.mean() for each in curves.fresh.values()])
+        who = f"best robots in fresh episodes, {len(returns)} runs"
+    axes.errorbar(
+        max(stat[-1, STEPS] for stat in curves.values()),
+        returns.mean(),
+        yerr=np.nan_to_num(fresh.half_width(returns)),
+        color=colour,
+        fmt="D",
+        ms=6,
+        capsize=5,
+        zorder=4,
+        mec="white",
+        label=f"{who}: {fresh.told(returns)}",
+        clip_on=False,
+    )
+
+
 def replication_mean(
     stats: Sequence[np.ndarray], column: int, points: int = 500
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -368,12 +417,13 @@ def print_table(fitness: dict[str, np.ndarray]) -> None:
     from rich.console import Console
     from rich.table import Table
 
-    table = Table(title="best post-evaluated fitness", box=box.SIMPLE, title_justify="left")
+    table = Table(title=ROBOTS, box=box.SIMPLE, title_justify="left")
     table.add_column("experiment", overflow="fold")
-    for column in ("mean", "sd", "n", "min", "max"):
+    for column in ("mean", "\u00b1 95 %", "sd", "n", "min", "max"):
         table.add_column(column, justify="right", no_wrap=True)
     for name, values in fitness.items():
-        numbers = (values.mean(), _sd(values), len(values), values.min(), values.max())
+        numbers = (values.mean(), fresh.half_width(values), _sd(values), len(values))
+        numbers += (values.min(), values.max())
         table.add_row(name, *(written(number) for number in numbers))
     Console(highlight=False).print(table)
 

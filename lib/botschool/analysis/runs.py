@@ -11,13 +11,17 @@ from pathlib import Path
 
 import numpy as np
 
-from botschool.errors import BotschoolError
+from botschool.errors import BotschoolError, listed
+from botschool.evolution import checkpoint, fresh
+from botschool.evolution.record import RunFiles
 from botschool.npy import NotNumbers, opened, read_numbers
 
 STEPS, BEST, BEST_POST, GENERATION_BEST, GENERATION_AVERAGE, PARAMETER_SIZE = range(6)
 """Columns of a stat file."""
 
-_RUN_FILE = re.compile(r"(?:(?P<kind>bestg|best|stat)S?(?P<seed>\d+)\.npy|S?(?P<fit>\d+)\.fit)")
+_RUN_FILE = re.compile(
+    r"(?:(?P<kind>bestg|best|stat)S?(?P<seed>\d+)\.npy|S?(?P<fit>\d+)\.fit|freshS(?P<fresh>\d+)\.txt)"
+)
 
 Warn = Callable[[str], None]
 
@@ -40,6 +44,20 @@ class Run:
     """Best post-evaluated genotype."""
     fit: dict[str, float | str] = field(default_factory=dict)
     """Contents of the .fit file; empty without one."""
+    fresh: np.ndarray | None = None
+    """Returns of the best robot in fresh episodes; None if it was not measured."""
+
+    def fitness(self) -> float:
+        """Return the best robot's mean return in fresh episodes, or else its post-evaluation.
+
+        Raises BotschoolError if no file holds either.
+        """
+        return self.best_post_evaluated() if self.fresh is None else float(self.fresh.mean())
+
+    def doubt(self) -> str:
+        """Return why `fitness` is too high, by luck: "" if it is not, or if no checkpoint tells."""
+        episodes = checkpoint.post_episodes(self.folder, self.seed) if self.fresh is None else 0
+        return f"post-evaluations of {episodes} episode{'s' * (episodes > 1)}" if episodes else ""
 
     def best_post_evaluated(self) -> float:
         """Return the best post-evaluated fitness, from the .fit file or else the stat file.
@@ -148,13 +166,16 @@ def find_runs(folder: Path | str, warn: Warn = warn) -> list[Run]:
         match = _RUN_FILE.fullmatch(path.name)
         if not match:
             continue
-        seed = int(match["seed"] or match["fit"])
+        seed = int(match["seed"] or match["fit"] or match["fresh"])
         run = runs.setdefault(seed, Run(seed, folder))
         if match["kind"]:
             setattr(run, match["kind"], path)
             continue
         try:
-            run.fit = read_fit(path)
+            if match["fresh"]:
+                run.fresh = fresh.read(path)
+            else:
+                run.fit = read_fit(path)
         except BotschoolError as error:
             warn(f"skipped: {error}")
     if not runs:
@@ -208,23 +229,43 @@ def read_curves(folder: Path | str, warn: Warn = warn) -> dict[int, np.ndarray]:
 
 
 def read_fitness(folder: Path | str, warn: Warn = warn) -> dict[int, float]:
-    """Return the best post-evaluated fitness of each run in a folder: seed -> fitness.
+    """Return the fitness of each run's best robot in a folder: seed -> mean return.
 
-    A run without one is left out after a call of `warn`. Raises BotschoolError if none is left.
+    It is the mean in fresh episodes; for a run without them it is the best post-evaluated fitness,
+    and `warn` says so if a checkpoint tells how few episodes that had. A run without either is left
+    out after a call of `warn`. Raises BotschoolError if none is left.
     """
     fitness = {}
+    doubts: dict[str, list[str]] = {}
     for run in find_runs(folder, warn):
-        if not run.fit and run.stat is None:
+        if not run.fit and run.stat is None and run.fresh is None:
             continue
         try:
-            fitness[run.seed] = run.best_post_evaluated()
+            fitness[run.seed] = run.fitness()
+            doubts.setdefault(run.doubt(), []).append(str(run.seed))
         except BotschoolError as error:
             warn(f"skipped: {error}")
     if not fitness:
         raise BotschoolError(
             f"no run in {folder} has a post-evaluated fitness: let one run for a while first."
         )
+    doubts.pop("", None)
+    for doubt, seeds in doubts.items():
+        warn(
+            f"note: {folder}, seed {listed(seeds)}: the number is the best of many {doubt}, so "
+            "it is too high: add --resume to the run's command to measure its best robot in fresh "
+            "episodes."
+        )
     return fitness
+
+
+def read_fresh(folder: Path | str, seeds: set[int]) -> dict[int, np.ndarray]:
+    """Return the best robots' returns in fresh episodes: seed -> (episodes,), where a run has them
+    and these seeds include it.
+    """
+    found = {seed: RunFiles(Path(folder), seed).fresh for seed in sorted(seeds) if seed >= 0}
+    read = {seed: fresh.read(path) for seed, path in found.items()}
+    return {seed: returns for seed, returns in read.items() if returns is not None}
 
 
 def seed_of(stat: Path | str) -> int | None:

@@ -97,7 +97,7 @@ def landscape(
 
 @app.command(epilog="Example: botschool plotave results/acrobot results/pendulum -o average.png")
 def plotave(folders: Folders = None, output: Picture = None) -> None:
-    """Print mean, standard deviation and number of runs of the best post-evaluated fitness."""
+    """Print the best robots' fitness: mean with its 95 % interval, standard deviation, runs."""
     from botschool.analysis.plots import plot_ave
 
     plot_ave(folders or [Path(".")], output)

@@ -79,6 +79,34 @@ def load(path: Path, experiment: Experiment, seed: int) -> dict[str, np.ndarray]
     return state
 
 
+def header(path: Path) -> dict[str, Any]:
+    """Return format, seed and experiment (as to_dict gives it) of a checkpoint.
+
+    Raises BotschoolError if there is none, or if it is damaged.
+    """
+    try:
+        with open(path, "rb") as stream, np.load(stream, allow_pickle=False) as file:
+            found = json.loads(str(file["botschool"]))
+        if not isinstance(found["experiment"], dict):
+            raise ValueError("it names no experiment")
+    except Exception as error:  # a damaged file can fail in any way
+        raise BotschoolError(
+            f"{path} is not a complete checkpoint of botschool ({_reason(error)})."
+        ) from None
+    return found
+
+
+def post_episodes(folder: Path, seed: int) -> int:
+    """Return the episodes of a post-evaluation of a run; 0 if its checkpoint does not tell, or
+    if two sides evolved, whose fitness is the mean over all opponents.
+    """
+    try:
+        found = header(RunFiles(folder, seed).checkpoint)["experiment"]
+        return 0 if "ngenerations" in found["algo"] else int(found["policy"]["pepisodes"])
+    except (BotschoolError, KeyError, TypeError, ValueError):
+        return 0
+
+
 def resume(path: Path, run: Resumable) -> None:
     """Restore a run to its state at the checkpoint.
 

@@ -153,6 +153,9 @@ class Coevolution(Run):
             met = met.reshape(2, meetings)
         return met, int(outcome.steps.sum())
 
+    def measure(self, files: RunFiles) -> None:
+        """Measure nothing: fitness is the mean against the other population."""
+
     def reproduces(self) -> bool:
         """Return whether meetings that the algorithm remembers end as they did, to the bit."""
         remembered = self.algorithm.remembered()

@@ -11,7 +11,7 @@ import numpy as np
 from botschool import _core
 from botschool.policies.policy import Policy
 from botschool.problems import Episodes, Outcome, Problem
-from botschool.seeds import POST_EVALUATION_SEED
+from botschool.seeds import NEW_EPISODES_SEED, POST_EVALUATION_SEED
 
 COLLECTED = 0.01
 """Share of the evaluation episodes that collect normalisation data."""
@@ -185,11 +185,22 @@ class Evaluator:
 
         It has no effect on the run: it collects no data, and its steps do not count.
         """
-        episodes, maxsteps = self._post_episodes, self.policy.config.post_steps
-        outcome = self.problem.evaluate(
-            self.policy, genotype[None], normalisation, episodes, maxsteps, self._workers
-        )
-        return mean(outcome.fitness)
+        return mean(self._returns(genotype, normalisation, self._post_episodes))
+
+    def fresh_returns(
+        self, genotype: np.ndarray, normalisation: np.ndarray | None, least: int
+    ) -> np.ndarray:
+        """Return the genotype's return in each of as many fresh episodes as a post-evaluation has,
+        `least` at least; shape (episodes,). It has no effect on the run. Raises Interrupted.
+        """
+        count = max(least, self.policy.config.pepisodes)
+        episodes = Episodes.of([self.seed + NEW_EPISODES_SEED], count)
+        return self._returns(genotype, normalisation, episodes, self._stopping)
+
+    def _returns(self, genotype, normalisation, episodes, *stopping) -> np.ndarray:
+        longest = self.policy.config.post_steps
+        robot = self.policy, genotype[None], normalisation
+        return self.problem.evaluate(*robot, episodes, longest, self._workers, *stopping).fitness
 
     def refresh(self) -> None:
         """End a generation: use the data that its post-evaluation collected from now on."""

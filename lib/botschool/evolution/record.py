@@ -53,6 +53,11 @@ class RunFiles:
         return self.folder / f"S{self.seed}.fit"
 
     @property
+    def fresh(self) -> Path:
+        """Return the file of the best robot's returns in fresh episodes (fresh.py)."""
+        return self.folder / f"freshS{self.seed}.txt"
+
+    @property
     def checkpoint(self) -> Path:
         """Return the checkpoint, which --resume reads."""
         return self.folder / f"checkpointS{self.seed}.npz"
@@ -76,8 +81,15 @@ class RunFiles:
 
     def all(self) -> list[Path]:
         """Return all of these files; "*" stands for a generation in a name."""
-        named = [self.stat, self.best, self.bestg, self.fit, self.checkpoint, self.events]
-        return [*named, self.kept("*"), self.populations("*"), self.fitness("*")]
+        named = [self.stat, self.best, self.bestg, self.fit, self.fresh]
+        return [
+            *named,
+            self.checkpoint,
+            self.events,
+            self.kept("*"),
+            self.populations("*"),
+            self.fitness("*"),
+        ]
 
     def existing(self) -> list[Path]:
         """Return the files that exist."""
@@ -86,16 +98,17 @@ class RunFiles:
 
 @contextmanager
 def claimed(folder: Path, seeds: list[int], resume: bool, force: bool) -> Iterator[None]:
-    """Make the folder ready for runs with these consecutive seeds, and lock it for them.
+    """Make the folder ready for runs with these seeds, and lock it for them (and any between).
 
     Existing results are kept when resuming, removed with `force`, and an error otherwise. Runs that
     another process writes are an error, too.
     """
-    which = f"seed {seeds[0]}" if len(seeds) == 1 else f"a seed from {seeds[0]} to {seeds[-1]}"
+    first, last = min(seeds), max(seeds)
+    which = f"seed {first}" if first == last else f"a seed from {first} to {last}"
     with ExitStack() as stack:
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            stack.enter_context(locked(folder, f"the run with {which}", seeds[0], len(seeds)))
+            stack.enter_context(locked(folder, f"the run with {which}", first, last - first + 1))
             _claim(folder, seeds, resume, force)
         except OSError as error:
             raise cannot_write(folder, error.strerror or str(error)) from error

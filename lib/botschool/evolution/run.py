@@ -17,7 +17,7 @@ from botschool import problems
 from botschool.cluster import Open
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
-from botschool.evolution import checkpoint
+from botschool.evolution import checkpoint, fresh
 from botschool.evolution.algorithm import ALGORITHMS
 from botschool.evolution.evaluate import Evaluator, Measured, mean
 from botschool.evolution.events import Events
@@ -68,6 +68,8 @@ class Run:
     """
     algorithm: Any
     record: Any
+    fresh: np.ndarray | None = None
+    """Returns of the best robot in fresh episodes, once the run is at its end."""
     budget: Limit
     """The end of the run by its experiment."""
     limit: Limit
@@ -147,12 +149,15 @@ class Run:
 
     def result(self, files: RunFiles) -> str:
         """Return a sentence about the whole run."""
-        record = self.record
-        return (
+        record, found = self.record, self.fresh
+        sentence = (
             f"seed {self.seed}: best {readable(record.best_fitness)}, best post-evaluated "
             f"{readable(record.bestg_fitness)} after {record.steps} steps; best robot: "
             f"{files.bestg}"
         )
+        if found is None:
+            return sentence
+        return f"{sentence}, {fresh.told(found)} in {len(found)} fresh episodes (95 % interval)"
 
     def ending(self, files: RunFiles, finished: bool) -> str:
         """Return the last message of a run; "" if there is none."""
@@ -267,6 +272,13 @@ class Run:
             values = {k.removeprefix(prefix): v for k, v in state.items() if k.startswith(prefix)}
             getattr(self, owner).restore(values)
 
+    def measure(self, files: RunFiles) -> None:
+        """Measure the best robot in fresh episodes, and save their returns. Raises Interrupted."""
+        if self.record.generation:
+            robot = self.policy.split(self.record.bestg)
+            self.fresh = self.evaluator.fresh_returns(*robot, fresh.EPISODES)
+            fresh.save(files.fresh, self.fresh)
+
     def reproduces(self) -> bool:
         """Return whether the best robot on record still gets its fitness, to the bit.
 
@@ -308,6 +320,8 @@ def evolve(
     events = Events(files.events, limit.steps if limit.steps < math.inf else 0)
     logged = 0
     run.report, run.limit = report, limit
+    with suppress(OSError):
+        files.fresh.unlink()  # of the robot that was the best before
     report(run)
 
     def log() -> None:
@@ -340,6 +354,7 @@ def evolve(
                 log()
                 recorded = time.monotonic()
         save(ended=True)
+        run.measure(files)
         if not run.problem.native:  # the first episodes may have hidden it
             with suppress(BotschoolError):
                 if not run.reproduces():

@@ -13,11 +13,8 @@ from botschool.problems.transition import Transition
 from botschool.rl.agent import Agent, play, stacked
 from botschool.rl.environments import make
 from botschool.rl.folder import RunFolder
-from botschool.seeds import seed_libraries
+from botschool.seeds import NEW_EPISODES_SEED, seed_libraries
 from botschool.terminal import readable
-
-NEW_EPISODES_SEED = 200_000
-"""Added to the seed; no training and no choice of a best model uses these episodes."""
 
 BATCH = 16
 """Episodes that are played in parallel if no picture is shown."""
