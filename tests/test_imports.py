@@ -24,7 +24,7 @@ LAYERS = (
     {"envs"},
     {"rl"},
     {"analysis", "page"},
-    {"course", "grading.declare"},
+    {"course", "grading.declare", "interface"},
     {"grading.packed", "grading.run"},
     {"grading.judge"},
     {"grading.notebook"},

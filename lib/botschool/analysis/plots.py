@@ -6,6 +6,7 @@ import sys
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -18,6 +19,7 @@ from botschool.analysis.runs import (
     GENERATION_BEST,
     STEPS,
     Warn,
+    find_runs,
     problem_of,
     read_curves,
     read_fitness,
@@ -163,13 +165,14 @@ def plot_ave(targets: Sequence[Path | str], output: Path | str | None = None) ->
         name: np.array(list(read_fitness(folder, warn).values()))
         for name, folder in named(folders).items()
     }
-    print_table(fitness)
+    title = _title(folders)
+    print_table(title, fitness)
     try:
         with new_figure(output, height=max(5.0, 1.6 + 0.6 * len(fitness))) as figure:
             axes = figure.add_subplot()
             _draw_bars(axes, fitness)
-            title = f"{ROBOTS}, mean \u00b1 sd over runs"
-            axes.set_title(common_title([problem_of(folder) for folder in folders], title))
+            problems = [problem_of(folder) for folder in folders]
+            axes.set_title(common_title(problems, f"{title}, mean \u00b1 sd over runs"))
     except NoDisplay as error:
         print(f"note: {error}", file=sys.stderr)
 
@@ -240,18 +243,28 @@ def _layout(height: float, width: float) -> dict[str, Any]:
 
 @contextmanager
 def new_figure(
-    output: Path | str | None, height: float = 5.0, width: float = 8.0
+    output: Path | str | None, height: float = 5.0, width: float = 8.0, shown: bool = True
 ) -> Iterator[Figure]:
-    """Yield a figure of `width` by `height` inches; show or write it when the block ends."""
-    if output is None:
+    """Yield a figure of `width` by `height` inches; when the block ends, write it to `output`, or
+    show it if there is none (not with shown=False).
+    """
+    if output is None and shown:
         with _shown_figure(height, width) as figure:
             yield figure
         return
     from matplotlib.figure import Figure
 
-    output = check_output(output, PICTURE_SUFFIXES)
-    figure = Figure(**_layout(height, width))
+    class Picture(Figure):
+        def _repr_png_(self) -> bytes:  # notebooks show it
+            self.savefig(content := BytesIO(), format="png")
+            return content.getvalue()
+
+    if output is not None:
+        output = check_output(output, PICTURE_SUFFIXES)
+    figure = Picture(**_layout(height, width))
     yield figure
+    if output is None:
+        return
     with written_whole(output) as temporary:
         try:
             figure.savefig(temporary, format=output.suffix[1:].lower())
@@ -412,18 +425,27 @@ def format_steps(steps: float) -> str:
     return f"{steps:.6g}"
 
 
-def print_table(fitness: dict[str, np.ndarray]) -> None:
+def _title(folders: Sequence[Path]) -> str:
+    """Return what the runs' numbers are: some may come from a time without fresh episodes."""
+    runs = [run for folder in folders for run in find_runs(folder, lambda sentence: None)]
+    measured = {run.fresh is not None for run in runs}
+    names = [ROBOTS] * (True in measured) + ["best post-evaluated fitness"] * (False in measured)
+    return ", or ".join(names)
+
+
+def print_table(title: str, fitness: dict[str, np.ndarray]) -> None:
+    """Print a row of numbers for each experiment."""
     from rich import box
     from rich.console import Console
     from rich.table import Table
 
-    table = Table(title=ROBOTS, box=box.SIMPLE, title_justify="left")
+    table = Table(title=title, box=box.SIMPLE, title_justify="left")
     table.add_column("experiment", overflow="fold")
     for column in ("mean", "\u00b1 95 %", "sd", "n", "min", "max"):
         table.add_column(column, justify="right", no_wrap=True)
     for name, values in fitness.items():
-        numbers = (values.mean(), fresh.half_width(values), _sd(values), len(values))
-        numbers += (values.min(), values.max())
+        numbers = [values.mean(), fresh.half_width(values), _sd(values), len(values)]
+        numbers += [values.min(), values.max()]
         table.add_row(name, *(written(number) for number in numbers))
     Console(highlight=False).print(table)
 

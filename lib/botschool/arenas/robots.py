@@ -29,7 +29,7 @@ class RobotModel:
     """Range of the infrared sensors from the robot's edge."""
 
 
-MODELS = {
+MODELS: dict[str, RobotModel] = {
     model["name"]: RobotModel(**(model | {"directions": tuple(model["directions"])}))
     for model in _core.robot_models()
 }

@@ -226,7 +226,7 @@ class Registry(dict[str, Entry]):
         raise KeyError(name)
 
 
-ALGORITHMS = Registry()
+ALGORITHMS: Registry = Registry()
 """All algorithms by name; importing botschool.evolution.algorithms fills it."""
 
 Class = TypeVar("Class", bound=type)

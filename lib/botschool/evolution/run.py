@@ -275,8 +275,8 @@ class Run:
     def measure(self, files: RunFiles) -> None:
         """Measure the best robot in fresh episodes, and save their returns. Raises Interrupted."""
         if self.record.generation:
-            robot = self.policy.split(self.record.bestg)
-            self.fresh = self.evaluator.fresh_returns(*robot, fresh.EPISODES)
+            genotype, vectors = self.policy.split(self.record.bestg)
+            self.fresh = self.evaluator.fresh_returns(genotype, vectors, fresh.EPISODES)
             fresh.save(files.fresh, self.fresh)
 
     def reproduces(self) -> bool:

@@ -72,7 +72,7 @@ def _of_convolutions() -> list[tuple[str, type, Any]]:
     ]
 
 
-NETWORK = tuple(name for name, _, _ in _of_networks())
+NETWORK: tuple[str, ...] = tuple(name for name, _, _ in _of_networks())
 """Names of the hyperparameters of every network; lib/evonet/hyperparameters.hpp declares them."""
 CONVOLUTIONS = tuple(name for name, _, _ in _of_convolutions())
 """Names of the hyperparameters of convolutional layers."""

@@ -207,7 +207,7 @@ def reporting(
     """Yield a function to call with the steps and the post-evaluations so far."""
     if terminal:
         with progress_bar(seed) as show:
-            yield lambda steps, evaluations: show(steps / budget, steps, 3, _reached(evaluations))
+            yield lambda steps, evaluations: show(steps / budget, steps, 3, reached(evaluations))
         return
     printed = 0
 
@@ -217,13 +217,13 @@ def reporting(
             printed = len(evaluations.steps)
             percent = min(100.0, 100 * steps / budget)
             print(
-                f"seed {seed}  steps {steps} ({percent:.0f}%)  {_reached(evaluations)}", flush=True
+                f"seed {seed}  steps {steps} ({percent:.0f}%)  {reached(evaluations)}", flush=True
             )
 
     yield line
 
 
-def _reached(evaluations: Evaluations) -> str:
+def reached(evaluations: Evaluations) -> str:
     sd = evaluations.returns[-1].std()
     return (
         f"post-evaluated {readable(evaluations.last)} \u00b1 {readable(sd)}  "

@@ -283,8 +283,25 @@ class Own(Stateful):
         return BotschoolError(f"Your strategy {self.name} {text}.")
 
 
+OFFERED: dict[str, Callable[..., Any]] = {}
+"""Strategies that a program has given, by `module:name`."""
+
+
+def offer(found: Callable[..., Any]) -> str:
+    """Enter a class or function of a program; return its name for `algo`. Raises BotschoolError."""
+    if not callable(found) or not hasattr(found, "__name__") or not found.__name__.isidentifier():
+        raise BotschoolError(
+            f"{found!r:.60} is no strategy: give a class with ask and tell, or a function."
+        )
+    name = f"{found.__module__}:{found.__name__}"
+    OFFERED[name] = found
+    return name
+
+
 def _find(name: str) -> Callable[..., Any]:
     """Return the function or class that `module:name` names. Raises BotschoolError."""
+    if name in OFFERED:
+        return OFFERED[name]
     module, _, attribute = name.partition(":")
     inside = import_here(module, f"take the strategy {attribute} from")
     found = getattr(inside, attribute, None)

@@ -1,0 +1,1 @@
+"""The interface for programs: what `import botschool` offers (docs/python.md)."""

@@ -1,0 +1,155 @@
+"""Turn what a program names (a file, an id, a dict, keywords) into a checked experiment."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import fields, replace
+from os import PathLike
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from botschool.arenas.section import ArenaConfig
+from botschool.config import Exp, Experiment, from_dict, load, to_dict
+from botschool.errors import BotschoolError
+from botschool.evolution.algorithm import RunConfig
+from botschool.evolution.algorithms import own
+from botschool.paths import own_file
+from botschool.policies.hyperparameters import PolicyConfig
+from botschool.wrappers import spelled
+
+Source: TypeAlias = str | PathLike[str] | dict[str, Any] | Experiment
+"""An experiment file, a problem's name, a dict of hyperparameters, or an Experiment."""
+
+SHORT = {"hidden": "nhiddens"}
+"""Further names of hyperparameters, for programs."""
+
+PARTS = (("exp", Exp), ("policy", PolicyConfig), ("arena", ArenaConfig))
+
+WORDS = (
+    ("add --resume to the same command", "call it again with resume=True"),
+    ("add --resume", "add resume=True"),
+    ("--resume", "resume=True"),
+    ("--force", "force=True"),
+    (" (-s)", ""),
+    (" (-o)", ""),
+    (" with -s", ""),
+    ("-o ", "folder="),
+    ("run with -w 1", "use workers=1"),
+    (" (-w)", ""),
+)
+"""The command's words for remedies, and those of Python."""
+
+
+@contextmanager
+def in_python_words() -> Iterator[None]:
+    """Raise the block's BotschoolError with remedies for Python, without the way it came."""
+    try:
+        yield
+    except BotschoolError as error:
+        sentence = str(error)
+        for command, python in WORDS:
+            sentence = sentence.replace(command, python)
+        raise BotschoolError(sentence) from None
+
+
+def experiment_of(
+    source: Source, given: dict[str, Any], algorithm: Callable[..., Any] | None = None
+) -> Experiment:
+    """Return the experiment that a program means; given: hyperparameters that replace its own.
+
+    algorithm: a class with ask and tell, or a function, for `algo`; it gets the hyperparameters
+    that no section has. Raises BotschoolError.
+    """
+    parts, path = _parts(source)
+    before = dict(parts.get("algo", {}))
+    given = {SHORT.get(key, key): value for key, value in given.items()}
+    if algorithm is not None:
+        if "algo" in given:
+            raise BotschoolError("algo and algorithm mean the same: give one of them.")
+        given["algo"] = own.offer(algorithm)
+        known = {f.name.lower() for _, cls in (*PARTS, ("algo", RunConfig)) for f in fields(cls)}
+        arguments = {key: given.pop(key) for key in list(given) if key.lower() not in known}
+        parts["algo"] = {"options": spelled({k: repr(_bare(v)) for k, v in arguments.items()})}
+    for key, value in given.items():
+        parts.setdefault(_part(key), {})[key] = _plain(value)
+    if "algo" in given and before:  # keep what the new algorithm has, too
+        kind = type(from_dict({**parts, "algo": {}}).algo)
+        kept = {f.name for f in fields(kind)} - {"options"}
+        parts["algo"] = {key: before[key] for key in before if key in kept} | {
+            key: value for key, value in parts["algo"].items() if before.get(key) != value
+        }
+    return replace(from_dict(parts, str(path or "experiment")), path=path)
+
+
+def _parts(source: Source) -> tuple[dict[str, dict[str, Any]], Path | None]:
+    """Return the sections that a source has, as to_dict names them, and its file."""
+    if isinstance(source, Experiment):
+        return to_dict(source), source.path
+    if isinstance(source, dict):
+        parts: dict[str, dict[str, Any]] = {}
+        for key, value in source.items():
+            if isinstance(value, dict) and key.lower() in ("exp", "policy", "algo", "arena"):
+                parts.setdefault(key.lower(), {}).update({k: _plain(v) for k, v in value.items()})
+            else:
+                parts.setdefault(_part(key), {})[SHORT.get(key, key)] = _plain(value)
+        return parts, None
+    if not isinstance(source, (str, PathLike)):
+        raise BotschoolError(
+            f"An experiment is a file, the name of a problem or a dict, but not a "
+            f"{type(source).__name__}: write 'hopper.ini' or 'CartPole-v1'."
+        )
+    if isinstance(source, str) and not source.endswith(".ini") and not Path(source).is_file():
+        return {"exp": {"environment": source}}, None
+    experiment = load(own_file(source, "experiments"))
+    for note in experiment.notes:
+        print(f"note: {source}: {note}", file=sys.stderr)
+    return to_dict(experiment), experiment.path
+
+
+def _part(key: str) -> str:
+    """Return the section of a hyperparameter; unknown ones go to [ALGO], which refuses them."""
+    key = SHORT.get(key, key).lower()
+    return next(
+        (part for part, cls in PARTS if key in (f.name.lower() for f in fields(cls))), "algo"
+    )
+
+
+def _bare(value: Any) -> Any:
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _plain(value: Any) -> Any:
+    """Return a value as experiment files have it."""
+    value = _bare(value)
+    if isinstance(value, dict):
+        return spelled({key: repr(_bare(each)) for key, each in value.items()})
+    if isinstance(value, (list, tuple)):
+        return ", ".join(str(_bare(each)) for each in value)
+    return int(value) if isinstance(value, bool) else value
+
+
+def usable(workers: int, native: bool) -> int:
+    """Return how many workers can start: one, with a note, where a script's processes would run the
+    script again. Raises BotschoolError for no number of workers.
+    """
+    if isinstance(workers, bool) or not isinstance(workers, (int, np.integer)) or workers < 1:
+        raise BotschoolError(f"workers is {workers!r:.40}, but must be a whole number above 0.")
+    script = getattr(sys.modules.get("__main__"), "__file__", None)
+    if native or workers == 1 or script is None or not script.endswith(".py"):
+        return int(workers)
+    try:
+        guarded = "__name__" in Path(script).read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        guarded = True
+    if guarded:
+        return int(workers)
+    print(
+        f"note: workers = 1, because worker processes import {script}: put its calls under "
+        "`if __name__ == '__main__':` to use more.",
+        file=sys.stderr,
+    )
+    return 1
