@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import sys
 from collections.abc import Iterator, Sequence
@@ -13,6 +14,19 @@ from typing import Any
 import numpy as np
 
 from botschool.errors import BotschoolError
+
+OTHER_REASONS = {
+    os.strerror(number)
+    for number in (
+        errno.ENOTDIR,
+        errno.EEXIST,
+        errno.EISDIR,
+        errno.EACCES,
+        errno.EPERM,
+        errno.EROFS,
+    )
+}
+"""Reasons for which space would not help."""
 
 
 def check_output(path: Path | str, suffixes: Sequence[str]) -> Path:
@@ -37,10 +51,11 @@ def check_output(path: Path | str, suffixes: Sequence[str]) -> Path:
 
 
 def cannot_write(path: Path | str, reason: str) -> BotschoolError:
-    """Return the error for a path that cannot be written."""
-    return BotschoolError(
-        f"{path} cannot be written ({reason}): free some space or choose another folder."
-    )
+    """Return the error for a path that cannot be written, for the system's reason."""
+    remedy = "free some space or choose another folder"
+    if reason in OTHER_REASONS:
+        remedy = "choose another folder"
+    return BotschoolError(f"{path} cannot be written ({reason}): {remedy}.")
 
 
 @contextmanager

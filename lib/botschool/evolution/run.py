@@ -23,7 +23,7 @@ from botschool.evolution.evaluate import Evaluator, Measured, mean
 from botschool.evolution.events import Events
 from botschool.evolution.limit import Limit
 from botschool.evolution.record import Record, RunFiles
-from botschool.output import save_npy
+from botschool.output import cannot_write, save_npy
 from botschool.problems import Interrupted, Problem
 from botschool.problems.base import say_unrepeatable
 from botschool.terminal import readable
@@ -312,6 +312,10 @@ def evolve(
     a file of its own every `keep_every` generations, beginning with the initial genotype.
     """
     files = RunFiles(Path(folder), run.seed)
+    try:
+        files.folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise cannot_write(files.folder, error.strerror or str(error)) from error
     if keep_every:
         report = keeping(files, keep_every, report)
     if resume and files.checkpoint.exists():

@@ -1,0 +1,416 @@
+"""`import botschool`: what programs get is what the commands give, bit for bit."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import botschool
+from botschool import config, problems
+from botschool.evolution.run import Run, evolve
+from botschool.interface.runs import HISTORY
+from botschool.problems import Episodes
+from running import call, contents, environment_of_command, same, write_experiment
+
+POLE = {"environment": "CartPole-v1", "algo": "SSS", "nhiddens": 3, "maxmsteps": 0.02, "popsize": 6}
+
+
+def test_importing_is_light():
+    code = (
+        "import sys, botschool; dir(botschool); heavy = {'numpy', 'gymnasium', 'torch', 'rich', "
+        "'matplotlib'} & set(sys.modules); assert not heavy, heavy; botschool.evolve; "
+        "botschool.problem; heavy = {'torch', 'matplotlib', 'IPython'} & set(sys.modules); "
+        "assert not heavy, heavy"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+# --- the same bits as the command
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+@pytest.mark.parametrize(
+    ("environment", "algo"),
+    [("CartPole-v1", "SSS"), ("Pendulum-v1", "OpenAI-ES"), ("tiny_envs:Tiny-v0", "SSS")],
+)
+def test_files_are_those_of_the_command(environment, algo, workers, tmp_path):
+    file = write_experiment(tmp_path, environment, algo, {"normalize": 1, "maxsteps": 50})
+    code, _, errors = call("es", "-f", file, "-s", 3, "-n", 3, "-o", tmp_path / "command")
+    assert code == 0, errors
+    runs = botschool.evolve(file, seeds=[5, 3, 4], workers=workers, folder=tmp_path / "python")
+    assert same(tmp_path / "command", tmp_path / "python")
+    assert runs.seeds == [5, 3, 4]
+    for run in runs:
+        assert np.array_equal(run.best, np.load(tmp_path / f"command/bestgS{run.seed}.npy"))
+
+
+def test_dicts_ids_and_keywords_mean_the_same_experiment(tmp_path):
+    nested = {"EXP": {"environment": "CartPole-v1", "algo": "SSS"},
+              "POLICY": {"nhiddens": 3}, "ALGO": {"maxmsteps": 0.02, "popsize": 6}}  # fmt: skip
+    file = tmp_path / "pole.ini"
+    file.write_text(
+        "[EXP]\nenvironment = CartPole-v1\nalgo = OpenAI-ES\n[POLICY]\nnhiddens = 9\n"
+        "[ALGO]\nmaxmsteps = 0.02\nstepsize = 0.1\n"
+    )
+    changed = {"algo": "sss", "hidden": np.int64(3), "popsize": 6.0}
+    keywords = {key: value for key, value in POLE.items() if key != "environment"}
+    made = [
+        botschool.evolve(POLE),
+        botschool.evolve(nested),
+        botschool.evolve("CartPole-v1", **keywords),
+        botschool.evolve(file, **changed),
+        botschool.evolve(config.load(file), **changed),
+    ]
+    assert len({config.to_dict(run.experiment).__repr__() for run in made}) == 1
+    assert len({run.best.tobytes() for run in made}) == 1
+    both = botschool.problem(POLE, normalize=True, filters=[16, 32])
+    assert both.experiment.policy.normalize == 1
+
+
+def test_a_run_of_python_is_continued_by_the_command_and_the_other_way_round(tmp_path):
+    file = write_experiment(tmp_path)
+    whole = botschool.evolve(file, folder=tmp_path / "whole")
+    botschool.evolve(file, folder=tmp_path / "a", generations=4)
+    assert call("es", "-f", file, "-o", tmp_path / "a", "--resume")[0] == 0
+    assert call("es", "-f", file, "-o", tmp_path / "b", "--generations", 4)[0] == 0
+    run = botschool.evolve(file, folder=tmp_path / "b", resume=True)
+    assert same(tmp_path / "whole", tmp_path / "a") and same(tmp_path / "whole", tmp_path / "b")
+    assert (run.history == whole.history).all()
+
+
+# --- what a run offers
+
+
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("runs")
+    return botschool.evolve(POLE, seeds=(1, 2, 7), folder=folder, normalize=1)
+
+
+def test_history_best_and_fitness_are_those_of_the_files(runs):
+    run = runs[1]
+    rows = np.load(run.folder / "statS2.npy").reshape(-1, 6)
+    assert run.history.dtype == HISTORY
+    for column, name in zip(rows.T, HISTORY.names[1:], strict=True):
+        assert (run.history[name] == column).all()
+    assert run.history["generation"].tolist() == list(range(1, len(rows) + 1))
+    assert np.array_equal(run.returns, np.loadtxt(run.folder / "freshS2.txt"))
+    assert np.array_equal(run.play(20), run.returns)  # the same episodes, the same bits
+    assert run.fitness == run.returns.mean() and run.play(3, seed=5).shape == (3,)
+    assert runs.history["seed"].tolist() == [r.seed for r in runs for _ in r.history]
+
+
+def test_summary_counts_and_bounds_the_runs(runs):
+    found, values = runs.summary(), runs.fitness
+    assert found["n"] == 3 and found["mean"] == pytest.approx(values.mean())
+    half = 4.303 * values.std(ddof=1) / np.sqrt(3)  # Student's t with two degrees of freedom
+    assert (found["low"], found["high"]) == pytest.approx(
+        (values.mean() - half, values.mean() + half)
+    )
+    assert len(runs[:2]) == 2 and np.isnan(runs[:1].summary()["sd"])
+
+
+def test_loading_gives_the_same_runs(runs):
+    loaded = botschool.load(runs[0].folder)
+    assert loaded.seeds == runs.seeds and (loaded.history == runs.history).all()
+    assert loaded[0].experiment == runs[0].experiment and repr(loaded) == repr(runs)
+
+
+def test_old_results_without_a_checkpoint_are_loaded(runs, tmp_path):
+    for name in ("statS2.npy", "bestgS2.npy"):
+        (tmp_path / name).write_bytes((runs[1].folder / name).read_bytes())
+    [old] = botschool.load(tmp_path)
+    assert (old.history == runs[1].history).all() and "seed 2" in repr(old)
+    with pytest.raises(botschool.BotschoolError, match="name it, as in load"):
+        old.play()
+    [known] = botschool.load(tmp_path, runs[0].experiment)
+    assert np.array_equal(known.returns, runs[1].returns)  # measured now
+
+
+def test_plots_pages_and_films_are_written(runs, tmp_path):
+    pytest.importorskip("matplotlib")
+    assert runs.plot(tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
+    assert runs[0].plot()._repr_png_().startswith(b"\x89PNG")
+    labels = runs.plot().axes[0].get_legend_handles_labels()[1]
+    assert any(f"3 runs: {runs.summary()['mean']:.2f}" in label for label in labels)
+    assert "bestgS1.npy" in runs[0].page(tmp_path / "p.html").read_text(encoding="utf-8")
+    film = runs[0].film(tmp_path / "f.gif")
+    assert film.read_bytes().startswith(b"GIF")
+
+
+def test_a_frame_of_pandas_has_the_same_columns(runs):
+    pytest.importorskip("pandas")
+    assert list(runs.frame().columns) == ["seed", *HISTORY.names]
+    assert list(runs[0].frame().index) == runs[0].history["generation"].tolist()
+
+
+def test_without_a_folder_files_go_with_the_run(tmp_path, monkeypatch):
+    import gc
+
+    monkeypatch.chdir(tmp_path)
+    runs = botschool.evolve(POLE, seeds=[1, 2])
+    folder, first = runs[0].folder, runs[0]
+    assert (folder / "statS2.npy").exists() and not list(tmp_path.iterdir())
+    assert runs[0].page() == Path("pageS1.html") and Path("pageS1.html").exists()
+    del runs
+    gc.collect()
+    assert folder.exists() and len(first.play(2)) == 2
+    del first
+    gc.collect()
+    assert not folder.exists()
+
+
+def test_two_sides_have_runs_but_no_robot_that_plays_alone(tmp_path):
+    run = botschool.evolve(
+        "predprey.ini", folder=tmp_path, ngenerations=2, popsize=4, selsize=2, nhiddens=2,
+        maxsteps=20, episodes=1, samplesize=2,
+    )  # fmt: skip
+    assert len(run.history) == 2 and not list(tmp_path.glob("fresh*")) and "ErPredprey" in repr(run)
+    with pytest.raises(botschool.BotschoolError, match="Two sides"):
+        run.play()
+
+
+# --- stopping
+
+
+SCRIPT = """
+import sys, botschool
+print("ready", flush=True)
+botschool.evolve("CartPole-v1", seeds=[1, 2], workers=2, folder=sys.argv[1], nhiddens=5,
+                 resume=len(sys.argv) > 2, maxmsteps=3)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")
+def test_ctrl_c_leaves_runs_that_resume_to_the_same_bits(tmp_path):
+    script = tmp_path / "script.py"
+    script.write_text(SCRIPT)
+    command = [sys.executable, script, tmp_path / "stopped"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    try:
+        process.stdout.readline()
+        while not (tmp_path / "stopped/checkpointS2.npz").exists():
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+    finally:
+        process.kill()
+    assert "KeyboardInterrupt: The evolution was stopped and is saved" in errors
+    assert "resume=True goes on" in errors and errors.count("Traceback") == 1
+    stat = np.load(tmp_path / "stopped/statS1.npy")
+    assert not stat.size or stat.reshape(-1, 6)[-1, 0] < 3e6
+    subprocess.run([*command, "again"], check=True)
+    subprocess.run([sys.executable, script, tmp_path / "whole"], check=True)
+    assert same(tmp_path / "stopped", tmp_path / "whole")
+
+
+def test_evolving_works_in_another_thread():
+    found = []
+    thread = threading.Thread(target=lambda: found.append(botschool.evolve(POLE, seeds=[1, 2])))
+    thread.start()
+    thread.join()
+    assert found[0].seeds == [1, 2]
+
+
+# --- a strategy of one's own
+
+
+class Climber:
+    """Keeps the best candidate so far."""
+
+    def __init__(self, start, seed, noise=0.1):
+        self.best, self.top, self.noise = start, -np.inf, noise
+        self.rng = np.random.default_rng(seed)
+
+    def ask(self):
+        self.tried = self.best + self.noise * self.rng.standard_normal((6, len(self.best)))
+        return self.tried
+
+    def tell(self, fitness):
+        if fitness.max() > self.top:
+            self.best, self.top = self.tried[fitness.argmax()], fitness.max()
+
+
+def climbing(evaluate, centre, generations, seed, noise=0.1):
+    """The same as a function."""
+    strategy = Climber(centre, seed, noise)
+    for _ in range(generations):
+        strategy.tell(evaluate(strategy.ask()))
+
+
+@pytest.mark.parametrize("algorithm", [Climber, climbing])
+def test_a_strategy_of_ones_own_resumes_and_is_the_commands(algorithm, tmp_path):
+    given = {"algorithm": algorithm, "noise": np.float64(0.3), "hidden": 3, "maxmsteps": 0.02}
+    whole = botschool.evolve("CartPole-v1", **given, folder=tmp_path / "whole")
+    botschool.evolve("CartPole-v1", **given, folder=tmp_path / "parts", generations=3)
+    botschool.evolve("CartPole-v1", **given, folder=tmp_path / "parts", resume=True)
+    assert same(tmp_path / "whole", tmp_path / "parts") and len(whole.history) > 6
+    file = tmp_path / "own.ini"
+    file.write_text(
+        f"[EXP]\nenvironment = CartPole-v1\nalgo = test_python:{algorithm.__name__}\n[POLICY]\n"
+        "nhiddens = 3\n[ALGO]\nmaxmsteps = 0.02\noptions = noise=0.3\n"
+    )
+    assert call("es", "-f", file, "-o", tmp_path / "command")[0] == 0
+    assert same(tmp_path / "whole", tmp_path / "command")
+
+
+# --- problems
+
+
+@pytest.mark.parametrize("environment", ["Acrobot-v1", "PlanarHopper-v5", "tiny_envs:Tiny-v0"])
+def test_evaluate_is_the_engines_own_call(environment):
+    problem = botschool.problem(environment, hidden=4, bias=1, maxsteps=60)
+    genotypes = np.stack([problem.initial(2, i) for i in range(7)])
+    seeds = np.arange(7) * 3
+    returns, steps = problem.evaluate(genotypes, seeds, episodes=2)
+    own = problems.make(environment)
+    policy = own.policy(problem.experiment.policy)
+    outcome = own.evaluate(policy, genotypes, None, Episodes.of(seeds, 2), 60)
+    assert returns.tolist() == outcome.fitness.reshape(7, 2).mean(axis=1).tolist()
+    assert steps.tolist() == outcome.steps.reshape(7, 2).sum(axis=1).tolist()
+    assert (returns.dtype, steps.dtype) == (np.float64, np.int64)
+    alone = [problem.evaluate(g, int(s), 2)[0][0] for g, s in zip(genotypes, seeds, strict=True)]
+    assert alone == returns.tolist()
+    assert (
+        problem.evaluate(genotypes, 5)[0].tolist()
+        == problem.evaluate(genotypes, [5] * 7)[0].tolist()
+    )
+
+
+def test_evaluate_takes_saved_robots_with_their_scaling(runs):
+    run = runs[0]
+    assert len(run.best) > run.problem.parameters
+    both, _ = run.problem.evaluate([run.best, runs[1].best], seeds=9, episodes=3)
+    assert both[0] == run.play(3, seed=9).mean() != both[1]
+
+
+def test_threads_evaluate_side_by_side():
+    problem = botschool.problem("CartPole-v1", hidden=8)
+    genotypes = np.stack([problem.initial(1, i) for i in range(50)])
+    with ThreadPoolExecutor(4) as pool:
+        found = list(pool.map(lambda seed: problem.evaluate(genotypes, seed, workers=1), range(8)))
+    for seed, (returns, _) in enumerate(found):
+        assert returns.tolist() == problem.evaluate(genotypes, seed)[0].tolist()
+
+
+# --- errors
+
+
+@pytest.mark.parametrize(
+    ("asked", "says"),
+    [
+        (lambda: botschool.evolve("CartPole-v1", nhidens=3), "did you mean nhiddens"),
+        (lambda: botschool.evolve("CartPoll-v1"), "did you mean CartPole-v1"),
+        (lambda: botschool.evolve("no_such.ini"), "no_such.ini"),
+        (lambda: botschool.evolve(7), "not a int"),
+        (lambda: botschool.evolve(POLE, seed=-1), "-1 is no seed"),
+        (lambda: botschool.evolve(POLE, seed="one"), "'one' is no seed"),
+        (lambda: botschool.evolve(POLE, seeds=[1, 1]), "different"),
+        (lambda: botschool.evolve(POLE, workers=0), "workers is 0"),
+        (lambda: botschool.evolve(POLE, resume=True), "name the folder"),
+        (lambda: botschool.evolve(POLE, algorithm=3), "no strategy"),
+        (lambda: botschool.evolve(POLE, algorithm=dict), "algo and algorithm mean the same"),
+        (lambda: botschool.evolve({"environment": "CartPole-v1"}, algorithm=Climber, nois=1), "noise"),
+        (lambda: botschool.evolve("CartPole-v1", popsize=4), "set algo = CMA-ES"),
+        (lambda: botschool.problem("CartPole-v1").evaluate(np.zeros((2, 3))), "(n, "),
+        (lambda: botschool.problem("CartPole-v1").evaluate([]), "shape"),
+        (lambda: botschool.problem(POLE).evaluate(np.full((2, 23), np.nan)), "row 0"),
+        (lambda: botschool.problem(POLE).evaluate(np.zeros((2, 23)), [1, 2, 3]), "seeds has shape"),
+        (lambda: botschool.problem(POLE).evaluate(np.zeros((2, 23)), -4), "seeds"),
+        (lambda: botschool.problem(POLE).evaluate(np.zeros((2, 23)), episodes=0), "episodes is 0"),
+        (lambda: botschool.load("no/such/folder"), "there is no folder"),
+        (lambda: botschool.train("CartPole-v1", algo="pppo"), "did you mean ppo"),
+        (lambda: botschool.train("CartPole-v1", steps=100, learnin_rate=1), "learning_rate"),
+    ],
+)  # fmt: skip
+def test_errors_are_one_sentence(asked, says, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(botschool.BotschoolError) as raised:
+        asked()
+    assert says in str(raised.value) and "\n" not in str(raised.value), str(raised.value)
+    assert raised.value.__suppress_context__ or raised.value.__context__ is None
+    assert not list(tmp_path.iterdir())
+
+
+def test_remedies_are_those_of_python(tmp_path):
+    botschool.evolve(POLE, folder=tmp_path)
+    with pytest.raises(botschool.BotschoolError) as raised:
+        botschool.evolve(POLE, folder=tmp_path)
+    assert "resume=True" in str(raised.value) and "force=True" in str(raised.value)
+    assert "--" not in str(raised.value) and "(-" not in str(raised.value)
+    botschool.evolve(POLE, folder=tmp_path, force=True)
+    with pytest.raises(botschool.BotschoolError, match="change it back to resume"):
+        botschool.evolve(POLE, folder=tmp_path, resume=True, nhiddens=4)
+
+
+def test_a_script_without_a_guard_evolves_on_one_core(tmp_path):
+    script = tmp_path / "script.py"
+    script.write_text(
+        "import botschool\nrun = botschool.evolve('tiny_envs:Tiny-v0', workers=2, maxmsteps=0.001,"
+        " algo='SSS', popsize=4)\nprint(run.best.sum())\n"
+    )
+    done = subprocess.run(
+        [sys.executable, script], capture_output=True, text=True, env=environment_of_command()
+    )
+    assert done.returncode == 0 and "note: workers = 1" in done.stderr, done.stderr
+    assert "__main__" in done.stderr and "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("depth", ["new", "new/and/deep"])
+def test_a_run_by_hand_makes_its_folder_without_a_warning(depth, tmp_path, capsys):
+    assert evolve(Run(config.from_dict({"exp": {"environment": "CartPole-v1"}}), 1), tmp_path / depth,
+                  generations=1)  # fmt: skip
+    assert capsys.readouterr().err == "" and contents(tmp_path / depth)
+
+
+@pytest.mark.parametrize("kind", ["a file", "below a file", "forbidden"])
+def test_a_folder_that_cannot_be_is_not_blamed_on_space(kind, tmp_path):
+    place = tmp_path / "taken"
+    place.write_text("")
+    if kind == "below a file":
+        place = place / "deep"
+    if kind == "forbidden":
+        if os.geteuid() == 0:
+            pytest.skip("root may write everywhere")
+        place = tmp_path / "locked"
+        place.mkdir(mode=0o500)
+    with pytest.raises(botschool.BotschoolError) as raised:
+        botschool.evolve(POLE, folder=place)
+    assert str(place) in str(raised.value) and "space" not in str(raised.value)
+    assert "choose another folder" in str(raised.value)
+
+
+# --- trainings
+
+
+def test_a_training_is_that_of_the_command(tmp_path):
+    agent = botschool.train(
+        "CartPole-v1", seed=2, steps=3000, folder=tmp_path / "python", gamma=0.9
+    )
+    given = ["--algo", "ppo", "--env", "CartPole-v1", "-s", 2, "-n", 3000, "--params", "gamma=0.9"]
+    assert call("rl", "train", *given, "-o", tmp_path / "command")[0] == 0
+    names = ("best_model.npz", "last_model.npz", "evaluations.npz")
+    mine, theirs = (tmp_path / side / "ppo/CartPole-v1_1" for side in ("python", "command"))
+    for name in names:
+        with np.load(mine / name) as one, np.load(theirs / name) as other:
+            assert all(np.array_equal(one[key], other[key]) for key in other)
+    assert agent.history["steps"][-1] >= 3000 and agent.returns.shape == (20,)
+    assert np.array_equal(agent.play(3), agent.returns[:3]) and agent.act([[0, 0, 0, 0]]).shape == (
+        1,
+    )
+    loaded = botschool.load(mine)
+    assert repr(loaded) == repr(agent) and np.array_equal(loaded.returns, agent.returns)
+
+
+def test_another_engine_is_told(capsys):
+    pytest.importorskip("stable_baselines3")
+    agent = botschool.train("CartPole-v1", algo="a2c", steps=200)
+    assert "Stable-Baselines3 trains CartPole-v1 by a2c" in capsys.readouterr().err
+    assert len(agent.play(2)) == 2
