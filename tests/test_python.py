@@ -17,6 +17,7 @@ from botschool import config, problems
 from botschool.evolution.run import Run, evolve
 from botschool.interface.runs import HISTORY
 from botschool.problems import Episodes
+from botschool.terminal import readable
 from running import call, contents, environment_of_command, same, write_experiment
 
 POLE = {"environment": "CartPole-v1", "algo": "SSS", "nhiddens": 3, "maxmsteps": 0.02, "popsize": 6}
@@ -139,7 +140,7 @@ def test_plots_pages_and_films_are_written(runs, tmp_path):
     assert runs.plot(tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
     assert runs[0].plot()._repr_png_().startswith(b"\x89PNG")
     labels = runs.plot().axes[0].get_legend_handles_labels()[1]
-    assert any(f"3 runs: {runs.summary()['mean']:.2f}" in label for label in labels)
+    assert any(f"3 runs: {readable(runs.summary()['mean'])}" in label for label in labels)
     assert "bestgS1.npy" in runs[0].page(tmp_path / "p.html").read_text(encoding="utf-8")
     film = runs[0].film(tmp_path / "f.gif")
     assert film.read_bytes().startswith(b"GIF")
@@ -316,15 +317,15 @@ def test_threads_evaluate_side_by_side():
         (lambda: botschool.evolve(POLE, workers=0), "workers is 0"),
         (lambda: botschool.evolve(POLE, resume=True), "name the folder"),
         (lambda: botschool.evolve(POLE, algorithm=3), "no strategy"),
-        (lambda: botschool.evolve(POLE, algorithm=dict), "algo and algorithm mean the same"),
+        (lambda: botschool.evolve(POLE, algorithm=Climber, algo="SSS"), "algo and algorithm mean the same"),
         (lambda: botschool.evolve({"environment": "CartPole-v1"}, algorithm=Climber, nois=1), "noise"),
         (lambda: botschool.evolve("CartPole-v1", popsize=4), "set algo = CMA-ES"),
         (lambda: botschool.problem("CartPole-v1").evaluate(np.zeros((2, 3))), "(n, "),
         (lambda: botschool.problem("CartPole-v1").evaluate([]), "shape"),
-        (lambda: botschool.problem(POLE).evaluate(np.full((2, 23), np.nan)), "row 0"),
-        (lambda: botschool.problem(POLE).evaluate(np.zeros((2, 23)), [1, 2, 3]), "seeds has shape"),
-        (lambda: botschool.problem(POLE).evaluate(np.zeros((2, 23)), -4), "seeds"),
-        (lambda: botschool.problem(POLE).evaluate(np.zeros((2, 23)), episodes=0), "episodes is 0"),
+        (lambda: botschool.problem(POLE).evaluate(np.full((2, 18), np.nan)), "row 0"),
+        (lambda: botschool.problem(POLE).evaluate(np.zeros((2, 18)), [1, 2, 3]), "2 of them"),
+        (lambda: botschool.problem(POLE).evaluate(np.zeros((2, 18)), -4), "seeds"),
+        (lambda: botschool.problem(POLE).evaluate(np.zeros((2, 18)), episodes=0), "episodes is 0"),
         (lambda: botschool.load("no/such/folder"), "there is no folder"),
         (lambda: botschool.train("CartPole-v1", algo="pppo"), "did you mean ppo"),
         (lambda: botschool.train("CartPole-v1", steps=100, learnin_rate=1), "learning_rate"),

@@ -19,6 +19,7 @@ from bodies import locomotors
 from bodies import two_workers as two_workers_on_bodies
 from bodybrain import bodybrain, chains
 from comparison import comparison, notice
+from interface import interface
 from processes import Neighbours, help_seconds, peak_memory
 from report import Table, machine, rate, verdict
 from roofline import roofline
@@ -270,6 +271,7 @@ PARTS = {
     "instructions": (instruction_sets, (0.05, 2), (0.15, 5)),
     "roofline": (roofline, (0.05, 2), (0.3, 5)),
     "workers": (two_workers_evaluating, (20,), (200,)),
+    "interface": (interface, (50,), (300,)),
     "runs": (two_workers_running, (0.15, 2), (0.5, 7)),
     "together": (together_or_apart, (0.15, 2), (0.5, 7)),
     "meetings": (meetings, (0.05, 2), (0.5, 5)),

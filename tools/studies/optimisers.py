@@ -1,6 +1,6 @@
-"""Optimisers of other libraries on one problem, by steps and seconds: the examples of docs/python.md.
+"""Compare optimisers of other libraries on one problem: the examples of docs/python.md.
 
-    python tools/studies optimisers [STEPS]    runs them with five seeds each (3e6 steps a run)
+    python tools/studies optimisers [STEPS]    runs them with five seeds each (1e6 steps a run)
 
 The code is that of the page, with more generations. Ours run on the same problem beside them.
 """
@@ -12,6 +12,7 @@ import os
 import re
 import sys
 import time
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -26,7 +27,7 @@ PAGE = ROOT / "docs" / "python.md"
 LIBRARIES = ("cma", "evosax", "nevergrad", "scipy")
 OURS = ("sNES", "CMA-ES")
 SEEDS = (1, 2, 3, 4, 5)
-STEPS = 3e6
+STEPS = 1e6
 POINTS = 60
 FRESH, EPISODES = 200_000, 50
 
@@ -43,7 +44,7 @@ class Watched:
         self.parameters = problem.parameters
         self.seconds, self.curve, self.best = 0.0, [(0, -np.inf)], None
         self.first = None
-        """CPU seconds when the first evaluation began; before it, modules are imported and compiled."""
+        """CPU seconds when the first evaluation began, after imports and compilations."""
 
     def initial(self) -> np.ndarray:
         """Another start for each seed."""
@@ -86,10 +87,8 @@ def library(name: str, code: str, seed: int, steps: float) -> dict:
     code = re.sub(r"(seed\"?[(=:] ?|key\(|default_rng\(|rng=)1\b", rf"\g<1>{seed}", code)
     code = re.sub(r"generations = \d+", "generations = 10**9 if scipy else 10**6", code)
     scope = {"problem": watched, "scipy": name == "scipy", "range": range}
-    try:
+    with suppress(Enough):
         exec(code, scope)
-    except Enough:
-        pass
     total = time.process_time() - watched.first
     return outcome(problem, watched.best, watched.curve, seed, watched.seconds, total)
 
@@ -160,9 +159,10 @@ def rows(kept: dict) -> str:
     return (
         f"{table(columns, lines)}\n\n"
         f"(Mean and standard deviation of {len(SEEDS)} seeds after {kept['steps'] / 1e6:g} million "
-        f"steps each, 40 candidates a generation; without importing and compiling. "
-        f"{kept['machine']}; busy with other work, load {kept['load']}. The seconds are those of all "
-        "cores together. The examples are not tuned: they show how to call, not which library is best. "
+        "steps each, 40 candidates a generation; without importing and compiling. "
+        f"{kept['machine']}; busy with other work, load {kept['load']}. The seconds are "
+        "those of all cores together. The examples are not tuned: they show how to call, not which "
+        "library is best. "
         "`python tools/studies optimisers`)"
     )
 

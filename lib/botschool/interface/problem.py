@@ -120,14 +120,15 @@ class Problem:
     def _outcome(self, x, normalisation, seeds, episodes, workers, longest=None):
         """Return the return and the steps of each episode, genotype by genotype."""
         batch = self._batches.get((len(x), episodes)) or self._batch(len(x), episodes)
-        seed = np.empty(len(batch[0]), np.uint64)
-        try:
-            seed.reshape(len(x), episodes)[:] = np.asarray(seeds).reshape(-1, 1)
-        except (ValueError, TypeError, OverflowError):
+        chosen = np.asarray(seeds)
+        wrong = chosen.dtype.kind not in "iu" or chosen.size not in (1, len(x))
+        if wrong or np.minimum.reduce(chosen, axis=None) < 0:
             raise BotschoolError(
-                f"seeds has shape {np.shape(seeds)}, but must be a whole number from 0 on, or "
-                f"{len(x)} of them, one for each genotype."
-            ) from None
+                f"seeds is {seeds!r:.40}, but must be a whole number from 0 on, or {len(x)} of "
+                "them, one for each genotype."
+            )
+        seed = np.empty(len(batch[0]), np.uint64)
+        seed.reshape(len(x), episodes)[:] = chosen.reshape(-1, 1)
         if workers is None and self.native:
             workers = CORES
         workers = usable(workers or 1, self.native)

@@ -6,6 +6,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import fields, replace
+from difflib import get_close_matches
 from os import PathLike
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -15,7 +16,7 @@ import numpy as np
 from botschool.arenas.section import ArenaConfig
 from botschool.config import Exp, Experiment, from_dict, load, to_dict
 from botschool.errors import BotschoolError
-from botschool.evolution.algorithm import RunConfig
+from botschool.evolution.algorithm import ALGORITHMS, RunConfig
 from botschool.evolution.algorithms import own
 from botschool.paths import own_file
 from botschool.policies.hyperparameters import PolicyConfig
@@ -27,7 +28,15 @@ Source: TypeAlias = str | PathLike[str] | dict[str, Any] | Experiment
 SHORT = {"hidden": "nhiddens"}
 """Further names of hyperparameters, for programs."""
 
-PARTS = (("exp", Exp), ("policy", PolicyConfig), ("arena", ArenaConfig))
+SECTIONS = {
+    f.name.lower(): part
+    for part, kind in [
+        *(("arena", ArenaConfig), *(("algo", entry.config) for entry in ALGORITHMS.values())),
+        *(("policy", PolicyConfig), ("exp", Exp)),
+    ]
+    for f in fields(kind)
+}
+"""The section of each hyperparameter."""
 
 WORDS = (
     ("add --resume to the same command", "call it again with resume=True"),
@@ -71,8 +80,9 @@ def experiment_of(
         if "algo" in given:
             raise BotschoolError("algo and algorithm mean the same: give one of them.")
         given["algo"] = own.offer(algorithm)
-        known = {f.name.lower() for _, cls in (*PARTS, ("algo", RunConfig)) for f in fields(cls)}
-        arguments = {key: given.pop(key) for key in list(given) if key.lower() not in known}
+        run = {f.name for f in fields(RunConfig)}
+        names = [key for key in given if _part(key) not in ("exp", "policy") and key not in run]
+        arguments = {key: given.pop(key) for key in names}
         parts["algo"] = {"options": spelled({k: repr(_bare(v)) for k, v in arguments.items()})}
     for key, value in given.items():
         parts.setdefault(_part(key), {})[key] = _plain(value)
@@ -111,11 +121,10 @@ def _parts(source: Source) -> tuple[dict[str, dict[str, Any]], Path | None]:
 
 
 def _part(key: str) -> str:
-    """Return the section of a hyperparameter; unknown ones go to [ALGO], which refuses them."""
+    """Return the section of a hyperparameter; of an unknown one that which has the most similar."""
     key = SHORT.get(key, key).lower()
-    return next(
-        (part for part, cls in PARTS if key in (f.name.lower() for f in fields(cls))), "algo"
-    )
+    near = [key] if key in SECTIONS else get_close_matches(key, SECTIONS, n=1)
+    return SECTIONS[near[0]] if near else "algo"
 
 
 def _bare(value: Any) -> Any:
