@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 import os
 from contextlib import redirect_stdout
 from pathlib import Path
@@ -92,7 +93,7 @@ class Problem:
                 f"genotypes has shape {np.shape(genotypes)}, but {self.name} needs "
                 f"(n, {self.parameters}): a row of parameters for each."
             )
-        if not np.isfinite(np.add.reduce(x, axis=None)) and not np.isfinite(x).all():
+        if x.size and not math.isfinite(np.maximum.reduce(x, axis=None)):  # a sum takes longer
             row = int((~np.isfinite(x)).any(axis=1).argmax())
             raise BotschoolError(f"genotypes holds a value in row {row} that is no finite number.")
         if x.shape[1] > self.parameters:  # each with vectors of its own
@@ -120,18 +121,22 @@ class Problem:
     def _outcome(self, x, normalisation, seeds, episodes, workers, longest=None):
         """Return the return and the steps of each episode, genotype by genotype."""
         batch = self._batches.get((len(x), episodes)) or self._batch(len(x), episodes)
-        chosen = np.asarray(seeds)
-        wrong = chosen.dtype.kind not in "iu" or chosen.size not in (1, len(x))
-        if wrong or np.minimum.reduce(chosen, axis=None) < 0:
-            raise BotschoolError(
-                f"seeds is {seeds!r:.40}, but must be a whole number from 0 on, or {len(x)} of "
-                "them, one for each genotype."
-            )
         seed = np.empty(len(batch[0]), np.uint64)
-        seed.reshape(len(x), episodes)[:] = chosen.reshape(-1, 1)
-        if workers is None and self.native:
-            workers = CORES
-        workers = usable(workers or 1, self.native)
+        if isinstance(seeds, int) and 0 <= seeds < 2**64:  # the usual case, in less time
+            seed[:] = seeds
+        else:
+            chosen = np.asarray(seeds)
+            wrong = chosen.dtype.kind not in "iu" or chosen.size not in (1, len(x))
+            if wrong or chosen.min() < 0:
+                raise BotschoolError(
+                    f"seeds is {seeds!r:.40}, but must be a whole number from 0 on, or {len(x)} "
+                    "of them, one for each genotype."
+                )
+            seed.reshape(len(x), episodes)[:] = chosen.reshape(-1, 1)
+        if workers is None:
+            workers = CORES if self.native else 1
+        elif workers != 1:
+            workers = usable(workers, self.native)
         outcome = self._problem.evaluate(
             self._policy,
             x,
