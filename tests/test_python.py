@@ -366,8 +366,8 @@ def test_a_script_without_a_guard_evolves_on_one_core(tmp_path):
 
 @pytest.mark.parametrize("depth", ["new", "new/and/deep"])
 def test_a_run_by_hand_makes_its_folder_without_a_warning(depth, tmp_path, capsys):
-    assert evolve(Run(config.from_dict({"exp": {"environment": "CartPole-v1"}}), 1), tmp_path / depth,
-                  generations=1)  # fmt: skip
+    run = Run(config.from_dict({"exp": {"environment": "CartPole-v1"}}), 1)
+    assert evolve(run, tmp_path / depth, generations=1)
     assert capsys.readouterr().err == "" and contents(tmp_path / depth)
 
 

@@ -6,6 +6,7 @@ import json
 import re
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -261,11 +262,13 @@ def read_fitness(folder: Path | str, warn: Warn = warn) -> dict[int, float]:
 
 def read_fresh(folder: Path | str, seeds: set[int]) -> dict[int, np.ndarray]:
     """Return the best robots' returns in fresh episodes: seed -> (episodes,), where a run has them
-    and these seeds include it.
+    and these seeds include it. Damaged files are left out; `find_runs` names them.
     """
-    found = {seed: RunFiles(Path(folder), seed).fresh for seed in sorted(seeds) if seed >= 0}
-    read = {seed: fresh.read(path) for seed, path in found.items()}
-    return {seed: returns for seed, returns in read.items() if returns is not None}
+    found = {}
+    for seed in sorted(seed for seed in seeds if seed >= 0):
+        with suppress(BotschoolError):
+            found[seed] = fresh.read(RunFiles(Path(folder), seed).fresh)
+    return {seed: returns for seed, returns in found.items() if returns is not None}
 
 
 def seed_of(stat: Path | str) -> int | None:

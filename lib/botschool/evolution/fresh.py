@@ -28,8 +28,9 @@ def half_width(values: np.ndarray) -> float:
     if n < 2:
         return math.nan
     z, v = 1.959964, n - 1
-    series = z + (z**3 + z) / (4 * v) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * v**2)
-    return T95.get(v, series) * float(np.std(values, ddof=1)) / math.sqrt(n)
+    quantile = z + (z**3 + z) / (4 * v) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * v**2)
+    quantile += (3 * z**7 + 19 * z**5 + 17 * z**3 - 15 * z) / (384 * v**3)
+    return T95.get(v, quantile) * float(np.std(values, ddof=1)) / math.sqrt(n)
 
 
 def told(values: np.ndarray) -> str:
