@@ -76,7 +76,7 @@ def test_a_run_that_goes_on_measures_its_new_best_robot(tmp_path):
 @pytest.mark.parametrize(
     ("pepisodes", "remove", "says"),
     [
-        (1, "freshS*", "seed 1 and 2: the number is the best of many post-evaluations of 1 episode"),
+        (1, "freshS*", "seed 1 and 2: the number is the best of many post-evaluations of 1 epis"),
         (3, "freshS2*", "seed 2: the number is the best of many post-evaluations of 3 episodes,"),
         (3, "", ""),
         (1, "", ""),
@@ -91,14 +91,15 @@ def test_plotave_reports_them_and_warns_of_lucky_numbers(pepisodes, remove, says
         path.unlink()
     _, out, errors = call("plotave", tmp_path / "o", "-o", tmp_path / "a.png")
     assert (says in errors) if says else not errors, errors
-    if "--resume" in says or not remove:
-        assert out.startswith("best robots in fresh episodes ")
+    title = out.splitlines()[0].strip()
+    if not remove:
+        assert title == "best robots in fresh episodes"
         half = 12.706 * np.std(values, ddof=1) / np.sqrt(2)
         row = out.splitlines()[-2].split()
         assert float(row[1]) == pytest.approx(np.mean(values), abs=0.06)
         assert float(row[2]) == pytest.approx(half, abs=0.06)
     else:
-        assert "best post-evaluated fitness" in out.splitlines()[0]
+        assert title.endswith("best post-evaluated fitness")
 
 
 @pytest.mark.parametrize("damage", ["", "1\ntwo\n", "nan\n", "\x80"])
@@ -106,12 +107,10 @@ def test_a_damaged_file_is_left_out_in_a_sentence(damage, tmp_path):
     own = config.load(single(tmp_path))
     assert run_seeds(own, tmp_path / "o")
     (tmp_path / "o/freshS1.txt").write_bytes(damage.encode("latin-1"))
-    code, _, errors = call("plotave", tmp_path / "o", "-o", tmp_path / "a.png")
-    assert (
-        code == 0 and "skipped: " in errors and "--resume" in errors and "Traceback" not in errors
-    )
-    code, _, errors = call("plotstat", tmp_path / "o", "-o", tmp_path / "a.png")
-    assert code == 2 and errors.count("\n") == 1 and "freshS1.txt" in errors
+    for command in ("plotave", "plotstat"):
+        code, _, errors = call(command, tmp_path / "o", "-o", tmp_path / f"{command}.png")
+        assert code == 0 and "--resume" in errors and "Traceback" not in errors
+        assert "skipped: " in errors and "freshS1.txt" in errors
 
 
 def test_intervals_are_students(tmp_path):
