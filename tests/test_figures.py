@@ -7,9 +7,14 @@ import re
 
 import pytest
 
-from botschool.page.exercise import POINTER, exercise_page, linked
+from botschool.errors import BotschoolError
+from botschool.grading.commands import start_command
+from botschool.grading.copies.release import release
+from botschool.grading.copies.starting import living_page
+from botschool.page import exercise
+from botschool.page.exercise import PAGE, POINTER, exercise_page, has_page, linked
 from botschool.page.markdown import render
-from living import FOLDERS, NAMED, WITH_PAGES, built, open_figures
+from living import FOLDERS, NAMED, ROOT, WITH_PAGES, built, open_figures
 
 pages = pytest.mark.parametrize("number", WITH_PAGES)
 
@@ -77,3 +82,45 @@ def test_a_text_becomes_a_page(tmp_path):
     assert made.count("<math ") == 2 and "<mfrac>" in made and 'display="block"' in made
     assert "<code>$y$</code>" in made and "$ls" in made and "<table>" in made
     assert 'href="to:../ex02_x/README.md"' in made and 'data-figure="one"' in made
+
+
+# The ways to a page
+
+
+@built
+def test_a_copy_has_its_pages_ready(tmp_path, monkeypatch):
+    copy = tmp_path / "copy"
+    assert release(ROOT, copy, {1, 7}).pageless == ""
+    for folder in copy.glob("exercises/ex*"):
+        assert "](page.html)" in (folder / "README.md").read_text()
+        made = (folder / PAGE).stat().st_mtime_ns
+        assert living_page(int(folder.name[2:4]), copy) == folder / PAGE
+        assert (folder / PAGE).stat().st_mtime_ns == made
+    assert release(ROOT, copy, {1, 7}).written == 0
+
+    monkeypatch.setattr(exercise, "core_file", no_core)
+    done = release(ROOT, copy, {1, 7})
+    assert "make web" in done.pageless and not done.edited
+    assert not [*copy.glob("exercises/*/page.html")]
+    assert "`botschool start 7` opens" in next(copy.glob("exercises/ex07*/README.md")).read_text()
+
+
+def no_core(part):
+    raise BotschoolError("The core for pages is not built here: type `make web` in the checkout.")
+
+
+def test_start_says_what_a_page_needs(capsys, monkeypatch):
+    monkeypatch.setenv("BOTSCHOOL_COURSE", str(ROOT))
+    monkeypatch.setattr(exercise, "core_file", no_core)
+    start_command("1", False, False)
+    assert "make web" in " ".join(capsys.readouterr().out.split())
+    page = FOLDERS[1] / PAGE
+    monkeypatch.setattr(exercise, "core_file", lambda part: b"core")
+    start_command("1", False, False)
+    assert "ex01_gymnasium/page.html" in capsys.readouterr().out and page.is_file()
+    page.unlink()
+
+
+def test_an_exercise_without_figures_has_no_page(tmp_path):
+    (tmp_path / "README.md").write_text("# Exercise 16. Tiny\n")
+    assert not has_page(tmp_path) and not has_page(tmp_path / "nothing")
