@@ -30,8 +30,9 @@ figure("hills", {
   play: "Evolve",
   fps: 5,
   step(f) {
+    if (f.state.generation >= LONGEST) start(f.state);
+    generation(f.state);
     if (f.state.generation >= LONGEST) f.stop();
-    else generation(f.state);
   },
   changed(f, keys) {
     if (keys.includes("size")) { f.stop(); start(f.state); }

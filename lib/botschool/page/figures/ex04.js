@@ -183,8 +183,10 @@ figure("dice", {
   play: "Throw",
   fps: 40,
   step(f) {
-    for (let i = 0; i < 5 && f.state.sums.length < THROWS; i++) f.state.sums.push(thrown(f.state, f.state.sums.length));
-    if (f.state.sums.length >= THROWS) f.stop();
+    const { state: s } = f;
+    if (s.sums.length >= THROWS) Object.assign(s, { seed: s.seed + 1, sums: [], again: [] });
+    for (let i = 0; i < 5; i++) s.sums.push(thrown(s, s.sums.length));
+    if (s.sums.length >= THROWS) f.stop();
   },
   draw(f, pen) {
     const { state: s } = f;

@@ -46,7 +46,7 @@ figure("cloud", {
   fps: 6,
   step(f) {
     climb(f.state);
-    if (f.state.t >= 300) f.stop();
+    if (f.state.t % 200 === 0) f.stop();
   },
   changed: (f) => look(f.state),
   grips(f) {
@@ -102,7 +102,7 @@ function parts(f) {
   const [left, top, width] = slim ? [0, side + 4, f.width] : [side + 8, 4, f.width - side - 8];
   const { fitness, strides } = f.state;
   const [low, most] = [Math.min(...fitness), Math.max(...fitness)];
-  const room = 0.06 * (most - low) + 1e-6;
+  const room = Math.max(0.06 * (most - low), 0.02);
   const far = 1.08 * Math.max(1.4, ...strides.flat().map(Math.abs));
   return {
     map: f.plot({ x: [-3, 3], y: [-3, 3], box: [-46, -10, side + 58, side + 34] }),

@@ -28,6 +28,7 @@ figure("bonus", {
   fps: (f) => 62.5 * f.state.speed,
   step(f) {
     const all = f.hoppers.flat();
+    if (all.every(({ ended }) => ended)) again(f, f.state.episode + 1);
     for (let i = 0; i < 2; i++) {
       for (const one of all) if (!one.ended) one.step();
     }
