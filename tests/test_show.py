@@ -75,7 +75,7 @@ def test_a_wrong_answer_lies_over_the_expected_one(kind):
     assert np.array_equal(below, of(expected)) and np.array_equal(above, of(yours))
     (alone,) = data(axes_of(panel(kind, yours))[0])
     assert np.array_equal(alone, of(yours))
-    assert set(KINDS) == {*DRAWN, "heat", "histogram", "image"}
+    assert set(KINDS) == {*DRAWN, "heat", "histogram"}
 
 
 def test_a_histogram_shows_shares_of_both():
@@ -100,13 +100,6 @@ def test_of_a_stack_of_tables_the_one_that_differs_is_seen():
     yours[2, 1, 1] = 7
     first = next(each for each in axes_of(panel("heat", yours, stack)) if each.images)
     assert first.images[0].get_array().max() == 7
-
-
-def test_an_image_is_shown_as_it_is():
-    picture = np.zeros((4, 5, 3))
-    picture[1, 2] = 255
-    first = axes_of(panel("image", picture, 0 * picture))[0]
-    assert first.images[0].get_array().max() == 1
 
 
 @pytest.mark.parametrize(

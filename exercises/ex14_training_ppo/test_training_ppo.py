@@ -25,7 +25,8 @@ exercise.captions = {
     "indicators.png": (
         "What every training has logged. Which curve tells early that a training fails?"
     ),
-    "*.mp4": "The best of all trainings of one problem.",
+    "CartPole-v1.mp4": "The best of all trainings on CartPole. Would you bet on its settings?",
+    "*.mp4": "The best of all trainings on the other problem.",
 }
 close = partial(same, tolerance=1e-6)
 SHORT = {"n_steps": 16, "batch_size": 64, "n_epochs": 2, "normalize": False}

@@ -345,6 +345,7 @@ def show_command(what: str, submission: str | None, opens: bool) -> int:
 
     Return the number of a finished exercise, else 0.
     """
+    from botschool.grading.report.progress import answers
     from botschool.grading.report.showing import (
         open_page,
         show_done,
@@ -376,8 +377,11 @@ def show_command(what: str, submission: str | None, opens: bool) -> int:
         _lead_to_page(number, root, Console(highlight=False, soft_wrap=True), False)
     if page:
         opened = opens and open_page(page)
-        what = "the picture" if task else "all on one page"
-        print(f"{'opened' if opened else what}: {os.path.relpath(page)}")
+        where = "the picture" if task else "all on one page"
+        print(f"{'opened' if opened else where}: {os.path.relpath(page)}")
+    with contextlib.suppress(BotschoolError):
+        if whole and answers(number, root):
+            print(f"our answers to the questions: botschool show {number} --answers")
     return number if whole else 0
 
 

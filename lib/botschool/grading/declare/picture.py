@@ -14,7 +14,6 @@ KINDS = {
     "groups": "(n, 3): points and the number of their group",
     "heat": "a table as a heat map; beside the expected one, their difference",
     "histogram": "the distribution of many numbers",
-    "image": "(height, width, 3): a picture that the submission draws",
     "path": "(n, 2) or (n, paths, 2): ways from a ring to a disc",
     "points": "(n, 2): points in a plane",
     "shapes": "(n, corners, 2): filled polygons",

@@ -83,8 +83,6 @@ def _suits(kind: str, array: np.ndarray) -> bool:
         return array.ndim == 2 and array.shape[1] == columns[kind]
     if kind in ("path", "shapes"):
         return array.shape[-1] == 2 and array.ndim in ((2, 3) if kind == "path" else (3,))
-    if kind == "image":
-        return array.ndim == 3 and array.shape[2] == 3
     most = {"against": 1, "bars": 1, "curves": 2, "heat": 9, "histogram": 9}
     return 1 <= array.ndim <= most.get(kind, 0)
 
@@ -175,10 +173,10 @@ def draw(title: str, panels: list[Panel]) -> Figure:
 
 
 def _cells(panel: Panel) -> list[tuple[str, Callable[[Axes], None]]]:
-    """Return the titles and drawers of a panel: three of a wrong table or image, else one."""
+    """Return the titles and drawers of a panel: three of a wrong table, else one."""
     note = panel.note or (f"differs by up to {panel.apart:.3g}" if panel.apart > 0 else "")
     title = f"{panel.title}\n{note}" if note else panel.title
-    if panel.kind not in ("heat", "image"):
+    if panel.kind != "heat":
         return [(title, partial(_overlaid, panel=panel))]
     tables = {title: panel.yours}
     if panel.expected is not None:
@@ -194,11 +192,6 @@ def _cells(panel: Panel) -> list[tuple[str, Callable[[Axes], None]]]:
 def _table(axes: Axes, name: str, table: np.ndarray | None, panel: Panel) -> None:
     shared = [each for each in (panel.yours, panel.expected) if each is not None]
     if table is None:
-        axes.axis("off")
-        return
-    if panel.kind == "image":
-        most = 255 if max(np.nanmax(each) for each in shared) > 1 else 1
-        axes.imshow(np.clip(np.abs(table) / most, 0, 1))
         axes.axis("off")
         return
     from matplotlib.ticker import MaxNLocator
