@@ -129,7 +129,7 @@ def unknown_commands(text):
     for found in COMMAND.findall(text):
         name, *words = found.split()
         command = COMMANDS.get(name)
-        if command and hasattr(command, "commands") and words:
+        if hasattr(command, "commands") and words and not words[0].startswith("-"):
             name, *words = words
             command = command.commands.get(name)
         if command is None or name in FOR_INSTRUCTORS:

@@ -219,6 +219,7 @@ def _build(root: Path, made: Path, numbers: set[int], compiled: bool) -> None:
     if start.is_file():
         _change(start, lambda text: _rows(text, start.parent))
         text = start.read_text(encoding="utf-8").replace("](ex", "](exercises/ex")
+        text = text.replace("](../", "](")
         (made / "README.md").write_text(text, encoding="utf-8", newline="\n")
 
 
