@@ -203,5 +203,9 @@ def test_answers_are_remembered_and_the_table_is_kept(tmp_path):
     class_.add([Student("Kim Lee", participant="9")], "ex5")
     ask(tmp_path, class_.doubts)
     assert "ex4,lee@x.org," in (tmp_path / "people.csv").read_text(encoding="utf-8-sig")
+    class_ = known({"moodle 5": "lea@x.org"})
+    class_.add(lees[:1], "ex4")
+    (tmp_path / "people.csv").write_text("person,name,where,student\nmoodle 5,K,ex4,lea@x.org\n")
+    assert "Kim Lee (moodle 5: nobody is called lea@x.org)" in ask(tmp_path, class_.doubts)[0]
     class_ = known({"moodle 5": "new"})
     assert class_.add(lees[:1], "ex4") == [4] and not class_.doubts

@@ -228,8 +228,9 @@ class Known:
 
 def _keys(row: Student) -> list[tuple]:
     """Return what identifies a row: (field, value), the platforms' numbers first."""
-    given = [(key, getattr(row, key).casefold()) for key in (*_NUMBERS, *_KEYS)]
-    return [(key, value) for key, value in given if value]
+    rows, kinds = (row, *row.again), (*_NUMBERS, *_KEYS)
+    given = [(key, getattr(each, key).casefold()) for key in kinds for each in rows]
+    return list(dict.fromkeys((key, value) for key, value in given if value))
 
 
 def questions(row: Student) -> list[str]:
@@ -245,9 +246,8 @@ def read_answers(folder: Path) -> dict[str, str]:
     table = read_table(path)
     if missing := [name for name in _HEAD[:4] if table.column(name) is None]:
         raise BotschoolError(f"{path} has no column '{missing[0]}': put it back.")
-    pairs = [
-        [table.get(row, name).lstrip("'") for name in ("person", "student")] for row in table.rows
-    ]
+    names = ("person", "student")
+    pairs = [[table.get(row, n).lstrip("'").casefold() for n in names] for row in table.rows]
     return {person: student for person, student in pairs if person and student}
 
 
@@ -256,27 +256,29 @@ def ask(folder: Path, doubts: Sequence[Doubt]) -> list[str]:
 
     What stands in the table stays. Raises BotschoolError.
     """
-    path, rows = folder / PEOPLE, []
+    if not doubts:
+        return []
+    path, answers, rows = folder / PEOPLE, read_answers(folder), []
     if path.is_file():
-        read_answers(folder)
         table = read_table(path)
-        rows = [[table.get(row, name) for name in ("person", "name", "where", "student", "maybe")]
-                for row in table.rows]  # fmt: skip
-    there = {row[0].lstrip("'") for row in rows}
+        columns = [*_HEAD[:4], "maybe"]
+        rows = [[table.get(row, name) for name in columns] for row in table.rows]
+    there = {row[0].lstrip("'").casefold() for row in rows}
+    taken, open_ = [], []
     for doubt in doubts:
-        if (key := questions(doubt.person)[0]) not in there:
-            there.add(key)
+        key, name = questions(doubt.person)[0], plain(doubt.person.name)
+        answer = answers.get(key.casefold())
+        unknown = f": nobody is called {plain(answer)}" if answer else ""
+        (taken if doubt.taken else open_).append(f"{name} ({key}{unknown})")
+        if key.casefold() not in there:
+            there.add(key.casefold())
             may_be = "; ".join(_shown(each) for each in doubt.candidates)
             cells = [key, doubt.person.name, doubt.where, doubt.taken, may_be]
             rows.append([safe_cell(cell) for cell in cells])
-    if doubts:
-        stream = io.StringIO()
-        csv.writer(stream, lineterminator="\n").writerows([_HEAD, *rows])
-        folder.mkdir(parents=True, exist_ok=True)
-        save_bytes(path, stream.getvalue().encode("utf-8-sig", "replace"))
-    taken = [f"{plain(each.person.name)} ({each.person.mail})" for each in doubts if each.taken]
-    open_ = [f"{plain(each.person.name)} ({questions(each.person)[0]})" for each in doubts
-             if not each.taken]  # fmt: skip
+    stream = io.StringIO()
+    csv.writer(stream, lineterminator="\n").writerows([_HEAD, *rows])
+    folder.mkdir(parents=True, exist_ok=True)
+    save_bytes(path, stream.getvalue().encode("utf-8-sig", "replace"))
     said = []
     if taken:
         said.append(

@@ -145,7 +145,7 @@ main:has(.pair:target) > :not(.pair) { display: none; }
 main { max-width: 90rem; }
 nav { display: flex; justify-content: space-between; margin-bottom: .6rem; }
 @media (max-width: 40rem) { .both { grid-template-columns: minmax(0, 1fr); } }
-@media print { .pair { display: block; break-before: page; } }
+@media print { nav { display: none; } .pair { display: block; break-before: page; } }
 """
 
 

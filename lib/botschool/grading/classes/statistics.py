@@ -96,7 +96,7 @@ def mistake(message: str) -> str:
 _STYLE = """
 .what { display: grid; grid-template-columns: minmax(0, 1fr) 9rem; gap: .2rem 1.2rem; }
 .what p, .what ul { margin: .3rem 0; }
-.what ul { grid-column: 1 / -1; padding: 0; list-style: none; }
+.what ul { grid-column: 1 / -1; padding: 0; margin-bottom: 0; list-style: none; }
 .what li { border-top: 1px solid var(--line); padding: .35rem 0; }
 .what summary { color: inherit; }
 svg { width: 9rem; height: 4.2rem; fill: var(--good); }

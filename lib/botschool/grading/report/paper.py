@@ -47,7 +47,7 @@ details.given { background: var(--code); padding: .1rem .6rem; font-size: .8rem;
  .lines > * { grid-template-columns: 2rem minmax(0, 1fr); } h1 { font-size: 1.5rem; } }
 @media print { body { background: none; font-size: 10pt; } main { max-width: none; padding: 0; }
  section { border: 0; border-top: 1px solid #999; border-radius: 0; padding: .6rem 0; margin: 0; }
- details::details-content { content-visibility: visible; } nav { display: none; }
+ details:not(.given)::details-content { content-visibility: visible; }
  * { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
 """
 
