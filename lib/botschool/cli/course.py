@@ -227,6 +227,21 @@ def release(
     release_command(folder, exercises, answers, wheel or [])
 
 
+ClassList = Annotated[
+    Path | None, typer.Option(help="A table of the class: names, ids, mail.", metavar="CSV")
+]
+Gradebook = Annotated[
+    Path | None,
+    typer.Option(
+        help="Moodle's grading worksheet or Canvas's gradebook; the command fills in a copy.",
+        metavar="CSV",
+    ),
+]
+Column = Annotated[
+    str, typer.Option(help="Name of the assignment in Canvas's gradebook.", metavar="NAME")
+]
+
+
 @app.command("grade-all", epilog="Example: botschool grade-all submissions --exercise 3 -o grades")
 def grade_all(
     folder: Annotated[
@@ -256,19 +271,9 @@ def grade_all(
     fresh: Annotated[
         bool, typer.Option("--fresh", help="Grade all submissions again, also unchanged ones.")
     ] = False,
-    roster: Annotated[
-        Path | None, typer.Option(help="A table of the class: names, ids, mail.", metavar="CSV")
-    ] = None,
-    gradebook: Annotated[
-        Path | None,
-        typer.Option(
-            help="Moodle's grading worksheet or Canvas's gradebook; the command fills in a copy.",
-            metavar="CSV",
-        ),
-    ] = None,
-    column: Annotated[
-        str, typer.Option(help="Name of the assignment in Canvas's gradebook.", metavar="NAME")
-    ] = "",
+    roster: ClassList = None,
+    gradebook: Gradebook = None,
+    column: Column = "",
     settings: Annotated[
         Path | None,
         typer.Option(
@@ -302,16 +307,9 @@ def gradebook(
     output: Annotated[
         Path, typer.Option("-o", "--output", help="Folder for the table.", metavar="FOLDER")
     ] = Path("results/term"),
-    roster: Annotated[
-        Path | None, typer.Option(help="A table of the class: names, ids, mail.", metavar="CSV")
-    ] = None,
-    gradebook: Annotated[
-        Path | None,
-        typer.Option(help="As for grade-all: gets the totals of the term.", metavar="CSV"),
-    ] = None,
-    column: Annotated[
-        str, typer.Option(help="Name of the column in Canvas's gradebook.", metavar="NAME")
-    ] = "",
+    roster: ClassList = None,
+    gradebook: Gradebook = None,
+    column: Column = "",
     settings: Annotated[
         Path | None,
         typer.Option(

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import csv
 import hashlib
-import io
 import os
 import re
 from collections.abc import Callable, Collection, Mapping
@@ -25,7 +23,7 @@ from botschool.grading.classes.outputs import OWN, WORDS, write_outputs
 from botschool.grading.classes.people import Person
 from botschool.grading.classes.policy import FILE, add_table
 from botschool.grading.classes.register import Register
-from botschool.grading.classes.tables import safe_cell
+from botschool.grading.classes.tables import made_table
 from botschool.grading.classes.texts import code_of_notebook
 from botschool.grading.declare.exercise import Exercise, Number, called
 from botschool.grading.report.feedback import page
@@ -185,7 +183,7 @@ def _grade(
         if not keys:
             write(row, name)
     grades.of(places, workers, keep)
-    save_bytes(output / TABLE, _table(rows, register).encode("utf-8-sig", "replace"))
+    save_bytes(output / TABLE, _table(rows, register))
     return rows
 
 
@@ -220,27 +218,23 @@ def page_names(folders: list[str], keys: list[str] | None = None) -> list[str]:
     return names
 
 
-def _table(rows: list[Row], register: Register) -> str:
+def _table(rows: list[Row], register: Register) -> bytes:
     columns = []
     for result in rows[0].results:
         columns += [called(result["exercise"]).lower(), *(task["id"] for task in result["tasks"])]
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
     people = ["id", "email", "handed in as"] if register.roster else []
-    writer.writerow([*_FIRST_COLUMNS, *columns, "feedback", "notes", *people])
+    lines: list[list[Any]] = [[*_FIRST_COLUMNS, *columns, "feedback", "notes", *people]]
     for row in rows:
-        points = []
+        points: list[Any] = []
         for result in row.results:
             all_of = [result["points"], *(task["points"] for task in result["tasks"])]
             points += all_of if result["graded"] else [""] * len(all_of)
-        shown = "" if row.total is None else row.total
-        link = safe_cell(f"{PAGES}/{row.page}") if row.page else ""
+        link = f"{PAGES}/{row.page}" if row.page else ""
         about = [row.student.id, row.student.mail] if row.student else ["", ""]
-        named = listed(list(dict.fromkeys(part.student for part in row.parts)))
-        about = [*about, named] if people else []
-        cells = [*points, link, safe_cell(notes_of(row)), *map(safe_cell, about)]
-        writer.writerow([safe_cell(row.name), shown, *cells])
-    return stream.getvalue()
+        about += [listed(list(dict.fromkeys(part.student for part in row.parts)))]
+        cells = [row.name, "" if row.total is None else row.total, *points, link, notes_of(row)]
+        lines.append(cells + about * bool(people))
+    return made_table(lines)
 
 
 def notes_of(row: Row) -> str:

@@ -203,11 +203,7 @@ def say_class(console: Console, found: Class) -> bool:
     unknown = f"{len(register.unknown)} not on the roster" if register.unknown else ""
     parts = [f"{len(handed_in)} submissions", average, left, missing, unknown]
     lines = [", ".join(filter(None, parts)) + "."]
-    if register.missing:
-        lines.append(f"Nothing from: {listed([each.name for each in register.missing])}.")
-    if register.unknown:
-        lines.append(f"Not on the roster: {listed(register.unknown)}.")
-    lines += found.notes
+    lines += [*register.lacking(), *found.notes]
     if found.nobodys:
         lines.append(f"Nobody's: {listed(found.nobodys)}.")
     problems = [row.name for row in handed_in if any(r["problem"] for r in row.results)]

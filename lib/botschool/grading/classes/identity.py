@@ -5,8 +5,6 @@ docs/specification.md, "A term".
 
 from __future__ import annotations
 
-import csv
-import io
 import re
 import unicodedata
 from collections import Counter
@@ -15,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.tables import read_table, safe_cell
+from botschool.grading.classes.tables import made_table, read_table
 from botschool.grading.declare.checks import plain
 from botschool.output import save_bytes
 
@@ -274,11 +272,9 @@ def ask(folder: Path, doubts: Sequence[Doubt]) -> list[str]:
             there.add(key.casefold())
             may_be = "; ".join(_shown(each) for each in doubt.candidates)
             cells = [key, doubt.person.name, doubt.where, doubt.taken, may_be]
-            rows.append([safe_cell(cell) for cell in cells])
-    stream = io.StringIO()
-    csv.writer(stream, lineterminator="\n").writerows([_HEAD, *rows])
+            rows.append(cells)
     folder.mkdir(parents=True, exist_ok=True)
-    save_bytes(path, stream.getvalue().encode("utf-8-sig", "replace"))
+    save_bytes(path, made_table([_HEAD, *rows]))
     said = []
     if taken:
         said.append(

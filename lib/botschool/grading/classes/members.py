@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from botschool.errors import BotschoolErrors
+from botschool.grading.classes.files import listed
 from botschool.grading.classes.finding import Submission
 from botschool.grading.classes.identity import Known, Student, ask
 from botschool.grading.classes.roster import Roster
@@ -111,6 +112,12 @@ class Members:
     @property
     def missing(self) -> list[Row]:
         return [row for row in self.rows if row.is_missing]
+
+    def lacking(self) -> list[str]:
+        """Return sentences on people who handed in nothing, or are not on the class list."""
+        nothing, strangers = listed([row.name for row in self.missing]), listed(self.unknown)
+        said = [f"Nothing from: {nothing}."] if nothing else []
+        return said + ([f"Not on the roster: {strangers}."] if strangers else [])
 
     def row(self, number: int, name: str) -> Row:
         """Return a row for a person; name: of one who is not on the class list."""

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from pathlib import Path
 
 from botschool.errors import BotschoolError
@@ -19,7 +17,7 @@ from botschool.grading.classes.register import Register, Row, Settings
 from botschool.grading.classes.sheets import Sheet, doubtful, sheets_section
 from botschool.grading.classes.similar import Program, similar_pairs, similarity_page
 from botschool.grading.classes.statistics import by_task, statistics_page
-from botschool.grading.classes.tables import read_table, safe_cell
+from botschool.grading.classes.tables import made_table, read_table, safe_cell
 from botschool.grading.classes.term import RECORD, record
 from botschool.grading.declare.exercise import Number, called
 from botschool.output import save_bytes
@@ -109,29 +107,26 @@ def _words(output: Path, rows: list[Row], register: Register) -> dict[str, bytes
         table = read_table(place)
         for old in table.rows:
             cells = [table.get(old, each) for each in columns]
-            before[cells[1] or cells[0], cells[2]] = cells
+            before[(cells[1] or cells[0]).lstrip("'"), cells[2]] = cells
     found = []
     for row in rows:
         for task in [task for result in row.results for task in result["tasks"]]:
-            if not (text := safe_cell(task.get("words", ""))):
+            if not (text := task.get("words", "")):
                 continue
-            key, name, what = safe_cell(row.about.key), safe_cell(row.name), task["id"]
+            key, name, what = row.about.key, row.name, task["id"]
             old = before.pop((key, what), None) or before.pop((name, what), [""] * 6)
-            if old[3] and old[5] != text:
+            if old[3] and old[5] != safe_cell(text):
                 register.notes.append(
                     f"{row.name} has changed {what} since you gave {old[3]} points: look at "
                     f"{place} again."
                 )
-            rubric = safe_cell(task.get("rubric", task["message"]))
+            rubric = task.get("rubric", task["message"])
             found.append([name, key, what, *old[3:5], text, rubric])
     found += [cells for cells in before.values() if cells[3] or cells[4]]
     if not found:
         return {}
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(["student", "id", "exercise", "points", "comment", "text", "rubric"])
-    writer.writerows(found)
-    return {WORDS: stream.getvalue().encode("utf-8-sig", "replace")}
+    head = ["student", "id", "exercise", "points", "comment", "text", "rubric"]
+    return {WORDS: made_table([head, *found])}
 
 
 def _comment(row: Row) -> str:

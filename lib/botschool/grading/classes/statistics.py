@@ -35,9 +35,8 @@ class TaskStatistics:
     @property
     def middle(self) -> tuple[float, float]:
         """Return the quartiles: half of the class lies between them."""
-        if len(self.points) < 2:
-            return (*self.points, 0.0, 0.0)[0], (*self.points, 0.0)[0]
-        low, _, high = quantiles(self.points, n=4, method="inclusive")
+        points = self.points if len(self.points) > 1 else 2 * self.points
+        low, _, high = quantiles(points, n=4, method="inclusive")
         return low, high
 
     @property

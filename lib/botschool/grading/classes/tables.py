@@ -5,8 +5,10 @@ from __future__ import annotations
 import csv
 import io
 import re
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.classes.texts import decoded
@@ -85,6 +87,14 @@ def read_table(path: Path) -> Table:
     if not rows:
         raise BotschoolError(f"{path} is empty: it needs a table with a head.")
     return Table(path, rows[0], rows[1:], delimiter, "mark" in encoding)
+
+
+def made_table(rows: Iterable[Sequence[Any]]) -> bytes:
+    """Return a new CSV file, in which no text is a formula."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerows([[safe_cell(c) if isinstance(c, str) else c for c in row] for row in rows])
+    return stream.getvalue().encode("utf-8-sig", "replace")
 
 
 _FORMULA = re.compile(

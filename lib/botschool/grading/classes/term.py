@@ -5,8 +5,6 @@ Each output of grade-all keeps its results in RECORD, with all that is known of 
 
 from __future__ import annotations
 
-import csv
-import io
 import itertools
 import json
 from collections.abc import Mapping
@@ -21,7 +19,7 @@ from botschool.grading.classes.files import listed
 from botschool.grading.classes.identity import Student
 from botschool.grading.classes.members import Members, Row, Settings
 from botschool.grading.classes.rules import TOTAL, Policy, tidy
-from botschool.grading.classes.tables import safe_cell
+from botschool.grading.classes.tables import made_table
 from botschool.grading.declare.exercise import Number, called
 from botschool.grading.report.paper import GENERATOR
 from botschool.output import save_bytes
@@ -161,17 +159,15 @@ def _handed(results: Mapping[Number, dict[str, Any]]) -> set[Number]:
 
 def table(term: Term) -> bytes:
     """Return the table of the term: a row for each person."""
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    heads = [f"{called(number).lower()}" for number in term.exercises]
-    writer.writerow(["student", "total", "maximum", *heads, "notes", "id", "email"])
+    heads = [called(number).lower() for number in term.exercises]
+    rows: list[list[Any]] = [["student", "total", "maximum", *heads, "notes", "id", "email"]]
     for row in term.rows:
         points = [tidy(r["points"]) if r["graded"] else "" for r in row.results]
         notes = " ".join([*map(_said, row.results), *row.said])
         total = "" if row.total is None else row.total
-        cells = [row.name, total, term.maximum, *points, notes, row.about.id, row.about.mail]
-        writer.writerow([c if isinstance(c, (int, float)) else safe_cell(c) for c in cells])
-    return stream.getvalue().encode("utf-8-sig", "replace")
+        about = [row.about.id, row.about.mail]
+        rows.append([row.name, total, term.maximum, *points, notes, *about])
+    return made_table(rows)
 
 
 def _said(result: dict[str, Any]) -> str:
@@ -185,10 +181,7 @@ def say_term(console: Console, term: Term, outputs: list[Output]) -> bool:
     mean = f"{sum(totals) / len(totals):.1f} of {term.maximum}" if totals else ""
     average = f", {mean} points on average" if totals else ""
     lines = [f"{len(term.rows)} people, {len(term.exercises)} exercises{average}."]
-    if missing := [row.name for row in term.missing]:
-        lines.append(f"Nothing from: {listed(missing)}.")
-    if term.unknown:
-        lines.append(f"Not on the roster: {listed(term.unknown)}.")
+    lines += term.lacking()
     lacking = ((row, r) for row in term.rows for r in row.results if not r["graded"])
     ungraded = list(dict.fromkeys(row.name for row, result in lacking if result["handed in"]))
     if ungraded:

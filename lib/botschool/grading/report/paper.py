@@ -118,8 +118,8 @@ def place_of(task: dict, text: str, skeleton: str, name: str) -> int | None:
     names += re.findall(r"\b(\w+)\(", task["message"])
     for each in names:
         head = rf"^[ \t]*(?:async )?def {re.escape(each)}\b"
-        if found := [*re.finditer(head, text, re.MULTILINE)]:
-            return text.count("\n", 0, found[-1].start()) + 1  # the last definition counts
+        if starts := [match.start() for match in re.finditer(head, text, re.MULTILINE)]:
+            return text.count("\n", 0, starts[-1]) + 1  # the last definition counts
     return None
 
 
