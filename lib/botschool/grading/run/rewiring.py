@@ -16,7 +16,6 @@ from typing import Any
 
 import numpy as np
 
-from botschool.course.evaluation import Robot
 from botschool.errors import BotschoolError
 from botschool.grading.run.pulse import alive, beat
 from botschool.grading.run.replaced import replaced
@@ -36,6 +35,8 @@ class Rewired:
     """
 
     def __init__(self, environment: str, gains: np.ndarray, enough: int = 0) -> None:
+        from botschool.course.evaluation import Robot
+
         self.environment, self.gains, self.enough = environment, np.asarray(gains, float), enough
         self._robot = Robot(environment)
         self.calls: list[tuple[np.ndarray, np.ndarray]] = []
@@ -115,6 +116,7 @@ def asking(environment: str, size: int, ask: Callable[[Any], dict]) -> Iterator[
 
     EnoughSeen ends the block.
     """
+    from botschool.course.evaluation import Robot
 
     def elsewhere(evaluate):
         def evaluated(robot, population, seed, episodes=5, maxsteps=1000):
