@@ -28,8 +28,8 @@ from gymnasium import spaces
 #
 # `gymnasium.make("CartPole-v1")` makes an environment, `env.observation_space` and
 # `env.action_space` are its two spaces: print them first. A `spaces.Box` has the limits `space.low`
-# and `space.high` (which may be infinite), a `spaces.Discrete` has `space.n` choices that begin with
-# `space.start`. `env.spec.max_episode_steps` is the time limit, or None if there is none.
+# and `space.high` (which may be infinite), a `spaces.Discrete` has `space.n` choices that begin
+# with `space.start`. `env.spec.max_episode_steps` is the time limit, or None if there is none.
 
 
 # %%
@@ -82,8 +82,8 @@ def random_episode(environment_id: str, seed: int, maxsteps: int) -> dict:
 # terminated as soon as the cart is more than 2.4 metres from the middle or the pole leans more than
 # 12 degrees, to either side.
 #
-# A step is worth 1 if it *begins* with the pole up, so the step in which the pole falls counts, too.
-# If you go on after the fall, Gymnasium warns you and gives 0.
+# A step is worth 1 if it *begins* with the pole up, so the step in which the pole falls counts,
+# too. If you go on after the fall, Gymnasium warns you and gives 0.
 
 
 # %%
@@ -110,9 +110,9 @@ def cartpole_reward(observation: np.ndarray, action: int) -> float:
 #
 # $$r = -(\theta^2 + 0.1\,\dot\theta^2 + 0.001\,u^2)$$
 #
-# with $\theta$ between $-\pi$ and $\pi$, so the best reward is 0. $\theta$ and $\dot\theta$ are those
-# at the *beginning* of the step. The motor gives at most 2 in either direction: a larger torque is
-# cut to that before anything else happens.
+# with $\theta$ between $-\pi$ and $\pi$, so the best reward is 0. $\theta$ and $\dot\theta$ are
+# those at the *beginning* of the step. The motor gives at most 2 in either direction: a larger
+# torque is cut to that before anything else happens.
 
 
 # %%

@@ -69,9 +69,9 @@ def decode(observation: np.ndarray) -> dict:
 #
 # $$h = -\cos\theta_1 - \cos(\theta_1 + \theta_2)$$
 #
-# from -2 (hanging) to 2 (upright). The reward of a step is -1. Only the step that brings the free end
-# above the line, $h > 1$, costs nothing; it also ends the episode. So the return is minus the time
-# needed, and an arm that never gets there has -500, as episodes end after 500 steps.
+# from -2 (hanging) to 2 (upright). The reward of a step is -1. Only the step that brings the free
+# end above the line, $h > 1$, costs nothing; it also ends the episode. So the return is minus the
+# time needed, and an arm that never gets there has -500, as episodes end after 500 steps.
 
 
 # %%
@@ -151,10 +151,10 @@ def read_stat(path: str) -> dict:
 # %% [markdown]
 # ## Task 4.5. Mean and spread at equal steps
 #
-# An episode of Acrobot is over when the line is reached, so better robots make shorter episodes, and
-# the tenth generation of one run has used other steps than the tenth of another. Ask at equal
-# *steps*: how good was each run when it had used, say, a million of them? It was as good as the last
-# generation that was complete by then.
+# An episode of Acrobot is over when the line is reached, so better robots make shorter episodes,
+# and the tenth generation of one run has used other steps than the tenth of another. Ask at equal
+# *steps*: how good was each run when it had used, say, a million of them? It was as good as the
+# last generation that was complete by then.
 
 
 # %%

@@ -69,8 +69,8 @@ def sizes(parameters: np.ndarray) -> dict:
 # %% [markdown]
 # ## Task 5.2. Angles
 #
-# For angles the number is cut off at -1 and at 1 (`np.clip(p, -1, 1)`), and then scaled. The *default
-# angle* of a segment is
+# For angles the number is cut off at -1 and at 1 (`np.clip(p, -1, 1)`), and then scaled. The
+# *default angle* of a segment is
 #
 # $$\text{angle} = \tfrac{3\pi}{4}\, \mathrm{clip}(p, -1, 1)$$
 #
@@ -144,9 +144,9 @@ def describe(parameters: np.ndarray) -> dict:
 # %% [markdown]
 # ## Task 5.5. Evolve walkers
 #
-# As in exercise 4: `config.load(file)`, `Run(experiment, seed)`, and `evolve(run, folder, steps)` with
-# a folder that exists. Afterwards `run.record.bestg` is the genotype with the best post-evaluated
-# fitness, as an array.
+# As in exercise 4: `config.load(file)`, `Run(experiment, seed)`, and `evolve(run, folder, steps)`
+# with a folder that exists. Afterwards `run.record.bestg` is the genotype with the best
+# post-evaluated fitness, as an array.
 
 
 # %%

@@ -157,6 +157,8 @@ def short_way_around(rng):
 
 # ------------------------------------------------------------------- 7.4
 everywhere = exercise.task("7.4", "The whole state space", needs=("7.1",))
+
+
 @same(everywhere, 5, "grid", 1e-6)
 def grid_of_states(rng):
     yield from ((4, 5), (5, 4), (7, 12), (20, 5), (3, 2))

@@ -162,9 +162,9 @@ def gait(trajectory: dict) -> dict:
 # %% [markdown]
 # ## Task 9.6. Evolve both, and compare
 #
-# `Runner("PlanarHopper-v5").evolve(steps, seed)` evolves a robot and returns its genotype, an array.
-# `runner.record(genotype, seed)` plays an episode and returns its trajectory. One evolution can be
-# lucky, so each version is evolved from several seeds.
+# `Runner("PlanarHopper-v5").evolve(steps, seed)` evolves a robot and returns its genotype, an
+# array. `runner.record(genotype, seed)` plays an episode and returns its trajectory. One evolution
+# can be lucky, so each version is evolved from several seeds.
 
 
 # %%

@@ -29,8 +29,7 @@ exercise.captions = {
         "statue. Drag the slider to the end."
     ),
     "hopper_v5.mp4": (
-        "Paid for its way alone, with the same body. Watch the foot: how short is it on the "
-        "ground?"
+        "Paid for its way alone, with the same body. Watch the foot: how short is it on the ground?"
     ),
 }
 ROBOTS = {"Hopper": 3, "HalfCheetah": 6, "Ant": 8, "Walker2D": 6, "Humanoid": 17}

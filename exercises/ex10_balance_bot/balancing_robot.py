@@ -38,8 +38,8 @@ LOWEST = 0.15  # metres: with the centre of its body below, the robot has fallen
 # %% [markdown]
 # ## Task 10.1. Read the robot
 #
-# Open `data/robots/balance_bot.urdf` and read it. `root = ElementTree.fromstring(urdf)` makes a tree
-# of the text. `root.findall("link")` are the links in the order of the file,
+# Open `data/robots/balance_bot.urdf` and read it. `root = ElementTree.fromstring(urdf)` makes a
+# tree of the text. `root.findall("link")` are the links in the order of the file,
 # `element.find("inertial/mass")` is an element inside another one, or None if there is none, and
 # `element.get("value")` is an attribute, which is a text.
 
@@ -243,9 +243,9 @@ def package_files() -> dict[str, str]:
 # %% [markdown]
 # ## Task 10.9. Evolve a controller
 #
-# For a robot this simple a network without hidden neurons is enough. It has four parameters: the bias
-# $b$ and the weights $w_1$, $w_2$, $w_3$ of inclination, angular velocity and wheel speed. The action
-# is
+# For a robot this simple a network without hidden neurons is enough. It has four parameters: the
+# bias $b$ and the weights $w_1$, $w_2$, $w_3$ of inclination, angular velocity and wheel speed. The
+# action is
 #
 # $$a = b + w_1 o_1 + w_2 o_2 + w_3 o_3$$
 #

@@ -34,8 +34,8 @@ import numpy as np
 # $n_t$ is 0 if step $t$ ended its episode, by a time-out too, and else 1. After the last step there
 # are no more TD errors, so the $A$ behind it is 0.
 #
-# To the reward of a step at which time ran out, $\gamma$ times the critic's value of what was observed
-# after it is added first (*bootstrapping*). An episode that really ended gets nothing.
+# To the reward of a step at which time ran out, $\gamma$ times the critic's value of what was
+# observed after it is added first (*bootstrapping*). An episode that really ended gets nothing.
 
 
 # %%
@@ -108,9 +108,9 @@ def policy_loss(
 # %% [markdown]
 # ## Task 13.3. The loss of the critic
 #
-# The critic shall predict the *return* of each step, for which PPO takes $A_t + V_t$ with the values of
-# the rollout. Its loss is the mean squared difference. Some people clip here too: a prediction then
-# counts for at most `clip_range_vf` of movement away from the value in the rollout.
+# The critic shall predict the *return* of each step, for which PPO takes $A_t + V_t$ with the
+# values of the rollout. Its loss is the mean squared difference. Some people clip here too: a
+# prediction then counts for at most `clip_range_vf` of movement away from the value in the rollout.
 
 
 # %%
@@ -156,9 +156,10 @@ def entropy_of_gaussians(log_deviation: np.ndarray) -> float:
 # %% [markdown]
 # ## Task 13.5. How far has the policy moved?
 #
-# The divergence of a batch is the mean of $(\rho_t - 1) - \ln \rho_t$. PPO goes through a rollout in
-# several *epochs*, and in each of them batch by batch. As soon as the estimate of a batch is greater
-# than 1.5 times `target_kl`, training on this rollout is over, and this batch makes no update.
+# The divergence of a batch is the mean of $(\rho_t - 1) - \ln \rho_t$. PPO goes through a rollout
+# in several *epochs*, and in each of them batch by batch. As soon as the estimate of a batch is
+# greater than 1.5 times `target_kl`, training on this rollout is over, and this batch makes no
+# update.
 
 
 # %%
@@ -181,8 +182,8 @@ def updates_made(divergences: list[list[float]], target_kl: float | None) -> int
 # One loss for everything: the policy's, plus `vf_coef` times the critic's, minus `ent_coef` times
 # the mean entropy.
 #
-# The *explained variance* compares what the critic leaves unexplained with how much the returns vary:
-# 1 is perfect, 0 no better than always saying the mean, negative is worse.
+# The *explained variance* compares what the critic leaves unexplained with how much the returns
+# vary: 1 is perfect, 0 no better than always saying the mean, negative is worse.
 #
 # $$1 - \frac{\mathrm{var}(R - V)}{\mathrm{var}(R)}$$
 
@@ -236,16 +237,16 @@ def responses(activations: np.ndarray, observations: np.ndarray) -> np.ndarray:
 # %% [markdown]
 # ## Task 13.8. Your own loop
 #
-# `ppo` is a `botschool.rl.native.PPO`: it acts, keeps the networks, and computes the loss of 13.6 with
-# its gradient. You decide what is learned from what.
+# `ppo` is a `botschool.rl.native.PPO`: it acts, keeps the networks, and computes the loss of 13.6
+# with its gradient. You decide what is learned from what.
 #
 # - `ppo.collect()` acts for a rollout and returns it. Its arrays `rewards` (bootstrapped as in
-#   13.1), `values` and `ended` have the shape (steps, envs), `last_values` the shape (envs,).
-#   `ended` says of each step what `advantages` is told in two pieces: 0 if its episode goes on, 1 if
-#   it ended with this step, 2 if time ran out. So `episode_starts` of step t + 1 and, after the last
-#   step, `dones` are 1 where `ended` is not 0.
-# - `rollout.advantages` and `rollout.returns` are arrays of the same shape, and hold zeros. Write your
-#   numbers into them: the critic learns the returns, which are the advantages plus the values.
+# 13.1), `values` and `ended` have the shape (steps, envs), `last_values` the shape (envs,). `ended`
+# says of each step what `advantages` is told in two pieces: 0 if its episode goes on, 1 if it ended
+# with this step, 2 if time ran out. So `episode_starts` of step t + 1 and, after the last step,
+# `dones` are 1 where `ended` is not 0.
+# - `rollout.advantages` and `rollout.returns` are arrays of the same shape, and hold zeros. Write
+#   your numbers into them: the critic learns the returns, which are the advantages plus the values.
 # - `ppo.minibatch(rows)` returns the steps with these numbers, from 0 to steps times envs - 1;
 #   `batch.log_probs` are the log-probabilities of the rollout.
 # - `ppo.loss(batch)` returns `log_probs`, those of the present policy, and `gradient`.

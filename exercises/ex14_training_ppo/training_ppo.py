@@ -90,9 +90,9 @@ def read_indicators(folder: str) -> dict:
 # %% [markdown]
 # ## Task 14.3. How successful was it?
 #
-# A training can be quick or slow, and lose again what it had. With the mean returns
-# $m_0, m_1, \ldots, m_n$ of the post-evaluations after $s_0, s_1, \ldots, s_n$ steps, the average over
-# the whole training is the area under the curve, divided by its width:
+# A training can be quick or slow, and lose again what it had. With the mean returns $m_0, m_1,
+# \ldots, m_n$ of the post-evaluations after $s_0, s_1, \ldots, s_n$ steps, the average over the
+# whole training is the area under the curve, divided by its width:
 #
 # $$\bar m = \frac{1}{s_n - s_0} \sum_{i=1}^{n} (s_i - s_{i-1}) \frac{m_{i-1} + m_i}{2}$$
 
@@ -199,8 +199,8 @@ def warning_signs(indicators: dict, total: int, signs: dict) -> list[str]:
 # ## Task 14.7. Which indicators go with success?
 #
 # Take one number of each training, such as its mean entropy, and its success. Do both put the
-# trainings in the same order? Replace each number by its *rank* (1 for the smallest) and compute the
-# correlation of the ranks:
+# trainings in the same order? Replace each number by its *rank* (1 for the smallest) and compute
+# the correlation of the ranks:
 #
 # $$\rho = \frac{\sum_i (a_i - \bar a)(b_i - \bar b)}
 # {\sqrt{\sum_i (a_i - \bar a)^2 \sum_i (b_i - \bar b)^2}}$$

@@ -26,8 +26,8 @@ from gymnasium import spaces
 # %% [markdown]
 # ## Task 2.1. The parameters
 #
-# The parameters are a dict of four arrays. `W1[h, i]` is the weight from input i to hidden neuron h,
-# `W2[o, h]` the weight from hidden neuron h to output o; `b1` and `b2` are the biases.
+# The parameters are a dict of four arrays. `W1[h, i]` is the weight from input i to hidden neuron
+# h, `W2[o, h]` the weight from hidden neuron h to output o; `b1` and `b2` are the biases.
 
 
 # %%

@@ -55,8 +55,8 @@ def mean(values: np.ndarray) -> float:
 # %% [markdown]
 # ## Task 6.1. One step of an LSTM
 #
-# The *memory* has two rows of 10 numbers, one for each unit: `memory[0]`, the cells, and `memory[1]`,
-# the units' outputs in the step before. A step:
+# The *memory* has two rows of 10 numbers, one for each unit: `memory[0]`, the cells, and
+# `memory[1]`, the units' outputs in the step before. A step:
 #
 # 1. Put the 8 values of the observation and the 10 outputs of the step before into one vector z.
 # 2. Each gate multiplies its weights by z. With the logistic function
@@ -214,12 +214,12 @@ def describe(poses: np.ndarray, rewards: np.ndarray, cylinder) -> dict:
 # %% [markdown]
 # ## Task 6.5. Families
 #
-# Steps, millimetres and radians cannot be compared, so bring each column to the same scale: subtract
-# its mean, and divide by its standard deviation (`ddof=0`, NumPy's ordinary one). How different two
-# robots are is then the length of the difference of their rows.
+# Steps, millimetres and radians cannot be compared, so bring each column to the same scale:
+# subtract its mean, and divide by its standard deviation (`ddof=0`, NumPy's ordinary one). How
+# different two robots are is then the length of the difference of their rows.
 #
-# At first each robot is a family of its own. The distance of two families is the *mean* distance of a
-# robot of the one and a robot of the other, over all such pairs. Merge the two nearest families,
+# At first each robot is a family of its own. The distance of two families is the *mean* distance of
+# a robot of the one and a robot of the other, over all such pairs. Merge the two nearest families,
 # again and again, until no two are nearer than the threshold.
 
 
@@ -260,9 +260,9 @@ def families(table: np.ndarray, threshold: float) -> list[int]:
 # ## Task 6.6. Without memory
 #
 # Take the memory away and see what is lost. `forget` empties it after every step: the robot only
-# knows the present. `freeze(since)` leaves the robot alone before step `since`, and from that step on
-# its memory stays as it was before that step: what it knows then it knows for ever, but it learns
-# nothing new.
+# knows the present. `freeze(since)` leaves the robot alone before step `since`, and from that step
+# on its memory stays as it was before that step: what it knows then it knows for ever, but it
+# learns nothing new.
 
 
 # %%

@@ -51,8 +51,8 @@ def to_state(observation: np.ndarray) -> np.ndarray:
 # %% [markdown]
 # ## Task 7.2. Recording an episode
 #
-# A controller is a function: `controller(observation)` returns the action, an array with one torque.
-# It can be an evolved network, a rule of yours, or `lambda observation: np.zeros(1)`.
+# A controller is a function: `controller(observation)` returns the action, an array with one
+# torque. It can be an evolved network, a rule of yours, or `lambda observation: np.zeros(1)`.
 
 
 # %%
@@ -79,8 +79,8 @@ def record(controller, seed: int, steps: int) -> np.ndarray:
 # %% [markdown]
 # ## Task 7.3. Arrows
 #
-# An arrow starts in one state and says how far it is to the next. A pendulum that swings through the
-# lowest point from 3.1 to -3.1 turns by 0.08, not by -6.2.
+# An arrow starts in one state and says how far it is to the next. A pendulum that swings through
+# the lowest point from 3.1 to -3.1 turns by 0.08, not by -6.2.
 
 
 # %%
@@ -102,10 +102,10 @@ def arrows(before: np.ndarray, after: np.ndarray) -> np.ndarray:
 # %% [markdown]
 # ## Task 7.4. The whole state space
 #
-# To see what the controller would do everywhere, start one step from each point of a grid. Below all
-# its wrappers (`env.unwrapped`) the environment holds its state as an attribute: after a `reset`,
-# `env.unwrapped.state = np.array([angle, velocity])` puts the pendulum anywhere. The controller must
-# be given the observation that belongs to that state.
+# To see what the controller would do everywhere, start one step from each point of a grid. Below
+# all its wrappers (`env.unwrapped`) the environment holds its state as an attribute: after a
+# `reset`, `env.unwrapped.state = np.array([angle, velocity])` puts the pendulum anywhere. The
+# controller must be given the observation that belongs to that state.
 
 
 # %%
@@ -143,10 +143,10 @@ def next_states(controller, states: np.ndarray) -> np.ndarray:
 # %% [markdown]
 # ## Task 7.5. Keeping stages of evolution
 #
-# A run leaves only its best robot behind. To compare stages you need the robots on the way, too. The
-# loop of an evolution is the same for every algorithm of botschool: `algorithm.ask()` returns the
-# candidates of a generation (one row of parameters each) and seeds that are not needed here, and
-# `algorithm.tell(fitness)` takes their fitness back.
+# A run leaves only its best robot behind. To compare stages you need the robots on the way, too.
+# The loop of an evolution is the same for every algorithm of botschool: `algorithm.ask()` returns
+# the candidates of a generation (one row of parameters each) and seeds that are not needed here,
+# and `algorithm.tell(fitness)` takes their fitness back.
 
 
 # %%

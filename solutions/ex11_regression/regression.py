@@ -63,9 +63,9 @@ class Network(nn.Module):
 # %% [markdown]
 # ## Task 11.2. The gradient by hand
 #
-# Only NumPy and the formulas of `README.md`: torch is refused, and differences of the loss,
-# (L(w + h) - L(w)) / h, are not exact enough. X holds the inputs (n rows), T the targets (m columns).
-# The four gradients:
+# Only NumPy and the formulas of `README.md`: torch is refused, and differences of the loss, (L(w +
+# h) - L(w)) / h, are not exact enough. X holds the inputs (n rows), T the targets (m columns). The
+# four gradients:
 #
 # $$\frac{\partial L}{\partial W_2} = D_2^\top H \qquad
 # \frac{\partial L}{\partial b_2} = \textstyle\sum_{rows} D_2 \qquad
@@ -187,8 +187,8 @@ def train(
 # No straight line separates the two kinds, so no single neuron can tell them apart. Two hidden
 # neurons can, but training may get stuck. Then begin anew.
 #
-# Here and in task 11.8 the network must be trained, step by step along gradients (`train`, or those of
-# task 11.2).
+# Here and in task 11.8 the network must be trained, step by step along gradients (`train`, or those
+# of task 11.2).
 
 
 # %%
@@ -284,9 +284,9 @@ def train_in_batches(
 # %% [markdown]
 # ## Task 11.8. Any training set
 #
-# All of it together, for data that you have not seen: a few hundred patterns of one to three inputs,
-# in any units, and one or two targets of ordinary size (about -3 to 3). What counts is how well the
-# network does on *other* patterns of the same kind.
+# All of it together, for data that you have not seen: a few hundred patterns of one to three
+# inputs, in any units, and one or two targets of ordinary size (about -3 to 3). What counts is how
+# well the network does on *other* patterns of the same kind.
 
 
 # %%
@@ -311,8 +311,8 @@ def fit(inputs: np.ndarray, targets: np.ndarray, seed: int) -> tuple:
 # %% [markdown]
 # ## Task 11.9. What the hidden neurons see
 #
-# Activate the network on a grid of points of the input plane: each hidden neuron gives a picture, its
-# *feature*.
+# Activate the network on a grid of points of the input plane: each hidden neuron gives a picture,
+# its *feature*.
 
 
 # %%

@@ -81,8 +81,9 @@ def chase(predator: np.ndarray, prey: np.ndarray, maxsteps: int = 2000) -> dict:
 # %% [markdown]
 # ## Task 15.2. Everybody meets everybody
 #
-# One chase after another in Python would take long, so write down the pairs and let `play` do all of
-# them: with two predators and three prey these are (0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2).
+# One chase after another in Python would take long, so write down the pairs and let `play` do all
+# of them: with two predators and three prey these are (0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1,
+# 2).
 
 
 # %%
@@ -104,8 +105,8 @@ def tournament(predators: list, prey: list, maxsteps: int = 2000) -> np.ndarray:
 # %% [markdown]
 # ## Task 15.3. The master matrix
 #
-# Take the mean over individuals of both sides: one number for two generations. For each side there is
-# a matrix, in which a *row* is one of its own generations and a *column* a generation of its
+# Take the mean over individuals of both sides: one number for two generations. For each side there
+# is a matrix, in which a *row* is one of its own generations and a *column* a generation of its
 # competitors. What the predator gets, the prey lacks of 1.
 
 
@@ -288,8 +289,8 @@ def interval(table: np.ndarray, measure, rng: np.random.Generator, resamples: in
 # %% [markdown]
 # ## Task 15.8. How do they behave?
 #
-# Step t goes from poses[t] to poses[t + 1] and lasts a tenth of a second. Of each robot, the predator
-# first:
+# Step t goes from poses[t] to poses[t + 1] and lasts a tenth of a second. Of each robot, the
+# predator first:
 #
 # - "speed": how far it moves, in mm per second;
 # - "turning": by how much its heading changes, the short way around and without its sign, in rad

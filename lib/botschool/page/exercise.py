@@ -107,15 +107,15 @@ def robot(
     made = problem.policy(read.policy)
     found = describe(read, problem, made) | {"seed": seed}
     del found["palette"]
-    if isinstance(saved, str):
-        saved = np.load(material() / "data" / "genotypes" / saved)
-    if saved is not None and np.ndim(saved) == 2:
-        saved = saved[[0, len(saved) // 2]].ravel()
     if saved is not None:
-        single = np.asarray(saved, dtype="<f4")
-        exact = (single == saved).all()
+        path = material() / "data" / "genotypes"
+        robot = np.load(path / saved) if isinstance(saved, str) else np.asarray(saved)
+        if robot.ndim == 2:
+            robot = robot[[0, len(robot) // 2]].ravel()
+        single = robot.astype("<f4")
+        exact = (single == robot).all()
         found["robot" if exact else "exact"] = b64encode(
-            (single if exact else np.asarray(saved, dtype="<f8")).tobytes()
+            (single if exact else robot.astype("<f8")).tobytes()
         ).decode()
     return found
 

@@ -19,6 +19,7 @@ from html import escape
 from types import MappingProxyType
 
 from botschool.grading.classes.wall import Broken, walled
+from botschool.grading.declare.exercise import Number
 from botschool.grading.report.paper import listing, paper, runs
 
 LENGTH = 9
@@ -152,7 +153,7 @@ nav { display: flex; justify-content: space-between; margin-bottom: .6rem; }
 def similarity_page(
     found: dict[int, tuple[int, list[Pair]]],
     sheets: Iterable[str] = (),
-    skeletons: Mapping[int, str] = MappingProxyType({}),
+    skeletons: Mapping[Number, str] = MappingProxyType({}),
 ) -> str:
     """Return a page without scripts, which shows one pair at a time.
 

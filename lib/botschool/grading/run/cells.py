@@ -238,6 +238,7 @@ def _without_errors(text: str) -> tuple[str, list[list]]:
         names = _DEFINED.findall(taken)
         if not found and (names or not cut):  # lines at the margin after it belong to it
             error = _parsed(taken)
+            assert isinstance(error, SyntaxError)
             said = f"{type(error).__name__}: {error.msg.partition(' (detected at ')[0]}"
             broken.append([line + (error.lineno or 1), error.offset or 0, said, names])
         made, cut = made + (found[1] if found else "\n" * taken.count("\n")), not found
