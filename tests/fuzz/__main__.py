@@ -170,6 +170,7 @@ def _spent() -> float:
 
 def _child(arguments: argparse.Namespace) -> None:
     """Read damaged files until the time is over; report each on standard output."""
+    from botschool.errors import BotschoolErrors
     from fuzz.kinds import KINDS, BotschoolError
 
     with contextlib.suppress(ImportError):
@@ -204,7 +205,9 @@ def _child(arguments: argparse.Namespace) -> None:
                 kind.read(path)
         except BotschoolError as error:
             text = str(error)
-            if "\n" in text or not text.rstrip().endswith((".", "?")):
+            several = isinstance(error, BotschoolErrors)  # a sentence in each line
+            lines = text.split("\n") if several else [text]
+            if any("\n" in each or not each.rstrip().endswith((".", "?")) for each in lines):
                 report.write(f"FIND says no sentence: {text!r}\n")
         except BaseException as error:
             place = traceback.extract_tb(error.__traceback__)

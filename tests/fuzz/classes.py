@@ -21,6 +21,7 @@ class ClassSettings(Kind):
             "students.csv": "name,id\nAda Lovelace,7\nAlan Turing,8\n",
             "adjustments.csv": "student,exercise,points,reason\nAda Lovelace,3,+5,a bug of ours\n",
             "times.csv": "id,submitted\n8,2026-11-20 23:59\n",
+            "groups.csv": "group,student,exercise\nRed,Ada Lovelace,3\nRed,8,\n",
         }
         for name, text in tables.items():
             (self.folder / name).write_text(text)
@@ -35,6 +36,9 @@ extensions:
 adjustments: adjustments.csv
 submitted: times.csv
 weights: {3: 2, 4: 0.5}
+groups: groups.csv
+total: 50
+bonus: yes
 """
         return [text.encode(), text.replace("2026, 9:14", "2026 9:14").encode()]
 
@@ -59,6 +63,8 @@ weights: {3: 2, 4: 0.5}
                 found = policy.apply(result, Student(name).called(), moment, False)
                 assert 0 <= found["points"] <= 10**9, found
             policy.weight(number)
+            policy.of_term([result], ["8"])
+            policy.digest([number])
         if policy.roster:
             read_roster(policy.roster)
 
