@@ -209,3 +209,28 @@ def test_answers_are_remembered_and_the_table_is_kept(tmp_path):
     assert "Kim Lee (moodle 5: nobody is called lea@x.org)" in ask(tmp_path, class_.doubts)[0]
     class_ = known({"moodle 5": "new"})
     assert class_.add(lees[:1], "ex4") == [4] and not class_.doubts
+
+
+def test_a_worksheet_tells_who_of_one_name_is_who_on_the_class_list(course):
+    people = [Handed("Kim Lee", {FILE: text.encode()}) for text in (HALF, SOLUTION)]
+    saved(course / "x.zip", moodle(people))
+    sheet = (
+        "Identifier,Full name,Email address,Status,Grade,Maximum Grade,Last modified (submission)\n"
+    )
+    for at, mail in enumerate(("lee@x.org", "kim@x.org")):
+        when = '"Friday, 20 November 2026, 9:14 PM"'
+        sheet += f"Participant {1234560 + at},Kim Lee,{mail},Submitted,,10.00,{when}\n"
+    (course / "sheet.csv").write_text(sheet)
+    lines = ["name,id,email", "Kim Lee,1,kim@x.org", "Kim Lee,2,lee@x.org", "Eve Cho,3,eve@x.org"]
+    (course / "students.csv").write_text("\n".join(lines))
+    (course / "class.yaml").write_text(
+        "roster: students.csv\ndue: {3: 2026-11-19}\nlate: 10 per day\nextensions: {2: {3: 2026-11-21}}\n"
+    )
+    book = ("--gradebook", course / "sheet.csv")
+    code, out, errors = call("grade-all", course / "x.zip", "-o", course / "out", "-w", 1, *book)
+    assert (code, errors) == (1, "") and "Nothing from: Eve Cho." in out and "Doubt" not in out
+    with open(course / "out" / "grades.csv", encoding="utf-8-sig", newline="") as file:
+        totals = {row["id"]: row["total"] for row in csv.DictReader(file)}
+    assert totals == {"1": "90", "2": "40", "3": ""}
+    with open(course / "out" / "moodle.csv", newline="") as file:
+        assert [row["Grade"] for row in csv.DictReader(file)] == ["4.00", "9.00"]
