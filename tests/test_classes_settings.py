@@ -224,7 +224,8 @@ def test_a_worksheet_tells_who_of_one_name_is_who_on_the_class_list(course):
     lines = ["name,id,email", "Kim Lee,1,kim@x.org", "Kim Lee,2,lee@x.org", "Eve Cho,3,eve@x.org"]
     (course / "students.csv").write_text("\n".join(lines))
     (course / "class.yaml").write_text(
-        "roster: students.csv\ndue: {3: 2026-11-19}\nlate: 10 per day\nextensions: {2: {3: 2026-11-21}}\n"
+        "roster: students.csv\ndue: {3: 2026-11-19}\nlate: 10 per day\n"
+        "extensions: {2: {3: 2026-11-21}}\n"
     )
     book = ("--gradebook", course / "sheet.csv")
     code, out, errors = call("grade-all", course / "x.zip", "-o", course / "out", "-w", 1, *book)
