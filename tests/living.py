@@ -56,6 +56,15 @@ def drag(browser, name, start, end):
         )
 
 
+def touch(browser, name, start, end):
+    """Drag with a finger in a figure."""
+    path = [start, [(a + b) / 2 for a, b in zip(start, end, strict=True)], end]
+    for kind, at in zip(("touchStart", "touchMove", "touchMove"), path, strict=True):
+        point = dict(zip("xy", place_of(browser, name, *at), strict=True))
+        browser.call("Input.dispatchTouchEvent", type=kind, touchPoints=[point])
+    browser.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+
+
 def click(browser, name, x, y):
     """Click in a figure's picture, at (x, y) in its pixels."""
     drag(browser, name, (x, y), (x, y))

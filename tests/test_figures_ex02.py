@@ -5,7 +5,7 @@ import numpy as np
 from botschool import config
 from botschool.problems.base import Episodes
 from botschool.problems.native import NativeProblem
-from living import ROOT, built, drag, focus, grip_of, open_figures, state
+from living import ROOT, built, drag, focus, grip_of, open_figures, state, touch
 
 
 def returns_by_python(genotypes):
@@ -57,4 +57,16 @@ def test_one_neuron_balances_and_the_luckiest_is_the_best_of_200(browser, tmp_pa
     best = int(returns.mean(axis=1).argmax())
     assert found["weights"] == drawn[best]
     assert found["returns"] == returns[best].tolist()
+    assert browser.errors == []
+
+
+@built
+def test_a_finger_drags_a_weight_and_nothing_beside_it(browser, tmp_path):
+    open_figures(browser, 2, tmp_path, width=390)
+    x, y = grip_of(browser, "weights", "hidden1-x")
+    touch(browser, "weights", (x, y), (x, y - 50))
+    assert abs(state(browser, "weights")["weights"][5] - 1.5) < 0.02
+    weights = state(browser, "weights")["weights"]
+    touch(browser, "weights", (x + 60, y - 60), (x + 60, y - 80))
+    assert state(browser, "weights")["weights"] == weights
     assert browser.errors == []

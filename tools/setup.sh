@@ -418,7 +418,7 @@ build_web() {
     printf '#!/bin/sh\nexec "%s" -m ziglang c++ "$@"\n' "$PWD/$python" >.venv/web-compiler
     chmod +x .venv/web-compiler
     PATH="$PWD/.venv/bin:$PATH"
-    for part in classic discrim predprey planar spatial; do
+    for part in classic discrim predprey planar bodybrain spatial; do
         quietly cmake -G Ninja -S lib -B build/web/$part -DBOTSCHOOL_WEB=$part -DCMAKE_SYSTEM_NAME=Generic \
             -DCMAKE_SYSTEM_PROCESSOR=wasm32 -DCMAKE_CXX_COMPILER="$PWD/.venv/web-compiler" \
             -DCMAKE_CXX_COMPILER_WORKS=ON -DCMAKE_CXX_FLAGS="-target wasm32-wasi -msimd128 -w"

@@ -63,7 +63,8 @@ struct Bench {
         blind(task.info.observations * task.info.robots),
         observation(blind.size()),
         state(task.info.states),
-        taken(task.info.discrete ? 1 : task.info.outputs * task.info.robots) {}
+        taken(task.info.discrete ? 1 : task.info.outputs * task.info.robots),
+        body(task.info.body) {}
   virtual ~Bench() = default;
   virtual void start(std::uint64_t, std::uint32_t) {}
   /// Turns `observation` into `taken`, and says what each neuron does.
@@ -87,12 +88,13 @@ struct Bench {
   }
 
   Values& values(int which) {
-    Values* all[] = {&genotype, &blind, &state, &observation, &taken, &activation, &normalisation};
+    Values* all[] = {&genotype, &blind,      &state,         &observation,
+                     &taken,    &activation, &normalisation, &body};
     return *all[which];
   }
 
   std::unique_ptr<Stepper> stepper;
-  Values genotype, blind, observation, activation, state, taken, normalisation;
+  Values genotype, blind, observation, activation, state, taken, normalisation, body;
   double reward = 0;
 };
 
@@ -370,6 +372,7 @@ EXPORT(bench) Bench* bench(const Task* task, int heterogeneous, int limit) {
 EXPORT(bench_end) void bench_end(Bench* bench) { delete bench; }
 EXPORT(bench_start) void bench_start(Bench* bench, double seed, int episode) {
   const auto key = static_cast<std::uint64_t>(seed);
+  if (!bench->body.empty()) bench->stepper->set_body(bench->body.data());
   bench->stepper->start(key, static_cast<std::uint32_t>(episode));
   bench->start(key, static_cast<std::uint32_t>(episode));
   bench->look();
@@ -385,7 +388,7 @@ EXPORT(bench_freeze) void bench_freeze(Bench* bench, int frozen) { bench->freeze
 /// Puts the state at the address of values 2 into the simulation.
 EXPORT(bench_move) void bench_move(Bench* bench) { bench->stepper->set_state(bench->state.data()); }
 /// 0 genotype, 1 blind (1 where a sensor is), 2 state, 3 observation, 4 action taken, 5 activations,
-/// 6 normalisation.
+/// 6 normalisation, 7 the body that the next episode begins with.
 EXPORT(bench_values) double* bench_values(Bench* bench, int which) {
   return bench->values(which).data();
 }

@@ -25,8 +25,8 @@ void estimate(const double* fitness, int count, const double* samples, int n, do
 
 /// Changes a centre x and Adam's moments m and v by step number t, from 1 on.
 EXPORT(climb)
-void climb(double* x, double* m, double* v, const double* rising, int n, int wdecay, double stepsize,
-           int t) {
+void climb(double* x, double* m, double* v, const double* rising, int n, int wdecay,
+           double stepsize, int t) {
   Centre centre{{x, x + n}, {m, m + n}, {v, v + n}};
   climb(centre, {rising, rising + n}, wdecay, adam_step(stepsize, static_cast<unsigned>(t)));
   std::copy(centre.x.begin(), centre.x.end(), x);

@@ -74,7 +74,7 @@ def write_page(
 
 
 def part_of(problem: str) -> str:
-    """Return which of the five cores has a problem (lib/CMakeLists.txt)."""
+    """Return which core has a problem that pages draw (lib/CMakeLists.txt)."""
     for part in ("planar", "spatial"):
         if problem.lower().startswith(part):
             return part
@@ -121,12 +121,11 @@ def _checked(experiment: Experiment) -> NativeProblem:
 
 def describe(experiment: Experiment, problem: NativeProblem, policy: Any) -> dict:
     """Return what a page knows of an experiment, without what a user can change."""
-    scene, spec, p, drawn = problem_scene(problem), policy.spec, experiment.policy, picture(problem)
+    scene, drawn = problem_scene(problem), picture(problem)
     inputs, outputs = policy.neurons
     neurons = len(policy.network.activations)
     robots = problem.interface.robots
     groups = neuron_groups(robots * neurons, inputs, outputs, scene.robots)
-    limit = problem.steps(p.maxsteps)
     return drawn | {
         "title": problem.name,
         "about": _about(experiment),
@@ -136,27 +135,34 @@ def describe(experiment: Experiment, problem: NativeProblem, policy: Any) -> dic
         "sides": experiment.competitive,
         "neurons": neurons,
         "inputs": inputs,
-        "normalized": bool(spec.normalize),
-        "remembers": p.architecture in (1, 2, 3),
+        "normalized": bool(policy.spec.normalize),
+        "remembers": experiment.policy.architecture in (1, 2, 3),
         "first": drawn["first"](np.zeros(scene.state_size)),
-        "experiment": {
-            "problem": problem.dynamics,
-            "spec": [getattr(p, key) for key in NETWORK],
-            "evaluation": [
-                p.episodes,
-                p.pepisodes,
-                limit,
-                problem.steps(p.post_steps),
-                p.heterogeneous,
-                problem.alive,
-            ],
-            "algorithm": _algorithm(experiment),
-            "steps": max(1, round(getattr(experiment.algo, "maxmsteps", 1) * 1e6)),
-            "generations": getattr(experiment.algo, "ngenerations", 0),
-            "saveeach": getattr(experiment.algo, "saveeach", 0),
-            "limit": limit,
-            "heterogeneous": p.heterogeneous,
-        },
+        "experiment": for_core(experiment, problem),
+    }
+
+
+def for_core(experiment: Experiment, problem: NativeProblem) -> dict:
+    """Return what the core needs to know of an experiment."""
+    p = experiment.policy
+    limit = problem.steps(p.maxsteps)
+    return {
+        "problem": problem.dynamics,
+        "spec": [getattr(p, key) for key in NETWORK],
+        "evaluation": [
+            p.episodes,
+            p.pepisodes,
+            limit,
+            problem.steps(p.post_steps),
+            p.heterogeneous,
+            problem.alive,
+        ],
+        "algorithm": _algorithm(experiment),
+        "steps": max(1, round(getattr(experiment.algo, "maxmsteps", 1) * 1e6)),
+        "generations": getattr(experiment.algo, "ngenerations", 0),
+        "saveeach": getattr(experiment.algo, "saveeach", 0),
+        "limit": limit,
+        "heterogeneous": p.heterogeneous,
     }
 
 

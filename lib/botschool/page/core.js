@@ -175,6 +175,8 @@ class Bench {
   get action() { return this.values(4); }
   get activation() { return this.values(5); }
   get normalisation() { return this.values(6); }
+  // The body's parameters; the next episode begins with them.
+  get body() { return this.values(7); }
   get reward() { return this.core.c.bench_reward(this.place); }
 
   start(seed, episode) { this.core.c.bench_start(this.place, seed, episode); }

@@ -202,8 +202,8 @@ class Figure {
     const { spec, row } = this;
     this.buttons = {};
     for (const [name, [label, key]] of Object.entries(spec.holds ?? {})) this.addHold(name, label, key);
-    for (const [key, slider] of Object.entries(spec.sliders ?? {})) this.addSlider(key, slider);
     for (const [key, choice] of Object.entries(spec.choices ?? {})) this.addChoice(key, choice);
+    for (const [key, slider] of Object.entries(spec.sliders ?? {})) this.addSlider(key, slider);
     for (const [key, label] of Object.entries(spec.toggles ?? {})) {
       this.addButton(row, key, label, () => this.set({ [key]: !this.state[key] }));
       this.controls[key] = () => this.pressed(key, this.state[key]);
