@@ -107,17 +107,15 @@ def robot(
     made = problem.policy(read.policy)
     found = describe(read, problem, made) | {"seed": seed}
     del found["palette"]
-    if saved is not None:
-        path = material() / "data" / "genotypes"
-        robot = np.load(path / saved) if isinstance(saved, str) else np.asarray(saved)
-        if robot.ndim == 2:
-            robot = robot[[0, len(robot) // 2]].ravel()
-        single = robot.astype("<f4")
-        exact = (single == robot).all()
-        found["robot" if exact else "exact"] = b64encode(
-            (single if exact else robot.astype("<f8")).tobytes()
-        ).decode()
-    return found
+    if saved is None:
+        return found
+    file = material() / "data" / "genotypes" / saved if isinstance(saved, str) else None
+    numbers = np.asarray(saved if file is None else np.load(file), dtype="<f8")
+    if numbers.ndim == 2:
+        numbers = numbers[[0, len(numbers) // 2]].ravel()
+    single = numbers.astype("<f4")
+    name, kept = ("robot", single) if (single == numbers).all() else ("exact", numbers)
+    return found | {name: b64encode(kept.tobytes()).decode()}
 
 
 def _painter(data: dict[str, Any]) -> str:

@@ -8,6 +8,7 @@ import numpy as np
 from botschool import config, problems
 from botschool.page import for_core
 from botschool.paths import material
+from botschool.problems.native import NativeProblem
 
 CORE = "bodybrain"
 WALKERS = ("planarbodybrain", "planarbodybrainS2", "planarbodybrainS3")
@@ -18,4 +19,6 @@ def data() -> dict[str, Any]:
     read = config.load(material() / "data" / "experiments" / "planarbodybrain.ini")
     saved = [np.load(material() / "data" / "genotypes" / f"{name}.npy") for name in WALKERS]
     coded = [b64encode(each.astype("<f4").tobytes()).decode() for each in saved]
-    return {"walking": for_core(read, problems.of(read)), "walkers": coded}
+    problem = problems.of(read)
+    assert isinstance(problem, NativeProblem)
+    return {"walking": for_core(read, problem), "walkers": coded}
