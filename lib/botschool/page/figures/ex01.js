@@ -2,10 +2,10 @@
 
 figure("pole", {
   title: "Balance it yourself",
-  tries: "hold ◀ or ▶ (arrow keys, or the two buttons) and keep the pole up for 200 steps. Slow the time down, push the pole, drag the cart.",
+  tries: "hold ◀ or ▶ (arrow keys, or the two buttons) and keep the pole up for 200 steps. Slow the time down, hit the pole, drag the cart. After the end, a push or N begins anew.",
   notice: "there is no action “do nothing”: each step pushes to one side. The episode <b>terminates</b> when the pole leans more than 12° or the cart is 2.4 m away; after 500 steps it is <b>truncated</b>. What did your hand look at: the angle, or how fast it changes?",
   aspect: 2.4,
-  state: () => ({ way: 0, speed: 0.5, episode: 0, best: 0, angles: [] }),
+  state: () => ({ way: 0, speed: 0.5, episode: 0, best: 0 }),
   begin(f) {
     f.pole = f.pole ?? new Robot(page.pole);
     f.pole.scene.view = [-2.9, -0.7, 2.9, 1.5];
@@ -26,7 +26,6 @@ figure("pole", {
   fps: (f) => 50 * f.state.speed,
   step(f) {
     f.pole.step([f.state.way]);
-    f.state.angles.push(f.pole.state[2]);
     f.state.best = Math.max(f.state.best, f.pole.total);
     if (f.pole.ended) f.stop();
   },
@@ -47,11 +46,11 @@ figure("pole", {
     pen.fillStyle = colour("ink");
     pen.font = "600 17px system-ui, sans-serif";
     pen.textAlign = "center";
-    pen.fillText(`${ending(f.pole)}: return ${f.pole.total}. N or a push begins anew.`, f.width / 2, 28, f.width - 16);
+    pen.fillText(ending(f.pole), f.width / 2, 24, f.width - 16);
   },
   status(f) {
     const [x, v, angle, speed] = f.pole.state;
-    return `step ${f.pole.steps} · return ${f.pole.total} (best ${f.state.best}) · observation: x ${number(x)} m, speed ${number(v)} m/s, angle ${number(angle * 180 / Math.PI, 1)}°, ${number(speed)} rad/s`;
+    return `step ${f.pole.steps} · reward ${f.pole.reward} · return ${f.pole.total} (best ${f.state.best}) · observation: x ${number(x)} m, speed ${number(v)} m/s, angle ${number(angle * 180 / Math.PI, 1)}°, ${number(speed)} rad/s`;
   },
   says: (f) => `A pole on a cart. Step ${f.pole.steps}, return ${f.pole.total}, angle ${number(f.pole.state[2] * 180 / Math.PI, 1)} degrees. ${f.pole.ended ? ending(f.pole) : ""}`,
 });
@@ -61,7 +60,6 @@ const ending = (pole) => (pole.fell
 
 function anew(f) {
   f.state.episode += 1;
-  f.state.angles = [];
   f.pole.start(f.state.episode);
 }
 

@@ -84,7 +84,7 @@ class Walker {
 }
 
 const START = (FLAT / 2) * PIECE;
-const sceneHeight = (f) => 0.52 * f.height;
+const sceneHeight = (f) => 0.46 * f.height;
 
 figure("body", {
   title: "A body in your hand",
@@ -190,7 +190,7 @@ function drawWorld(f, pen) {
   const [ends, thick] = f.walker.ends;
   const middle = ends.reduce((sum, [x]) => sum + x, 0) / ends.length;
   const high = sceneHeight(f);
-  const scale = Math.min(f.width / 16, high / 7);
+  const scale = Math.min(f.width / 13, high / 5.2);
   const level = f.walker.ground(middle);
   const at = (x, z) => [f.width / 2 + scale * (x - middle), high * 0.8 - scale * (z - level)];
   pen.save();
