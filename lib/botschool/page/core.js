@@ -83,6 +83,8 @@ class Core {
     return new Run(this, task, experiment, seed);
   }
 
+  // Single steps of algorithms, in the core "classic" only.
+
   // Returns the utilities of OpenAI-ES for these fitness values.
   utilities(fitness) {
     const [given, found] = [Float64Array.from(fitness), new Float64Array(fitness.length)];
