@@ -73,13 +73,15 @@ def bodies(rng, spread=0.6):
 
 
 # ------------------------------------------------------------------- 5.1
-GENOTYPE = np.load(genotype_file("bodybrainS1.npy"))
-WALKER = GENOTYPE[-BODY - 2 * OBSERVATIONS : -2 * OBSERVATIONS]
-"""The body of the first pre-evolved walker."""
+def walker():
+    """The body of the first pre-evolved walker."""
+    return np.load(genotype_file("bodybrainS1.npy"))[-BODY - 2 * OBSERVATIONS : -2 * OBSERVATIONS]
+
+
 size = exercise.task("5.1", "Sizes", refused=TOOL)
 size.draws(
     "Lengths, thicknesses and masses of a walker's eleven segments, the torso first.",
-    "segment", "", kind="bars", call=("sizes", WALKER),
+    "segment", "", kind="bars", call=lambda: ("sizes", walker()),
 )  # fmt: skip
 
 
@@ -102,7 +104,7 @@ def mass_of_each_segment(rng):
 turning = exercise.task("5.2", "Angles", refused=TOOL)
 turning.draws(
     "A walker's angles at rest, and how far each of its ten joints turns to both sides.",
-    "joint", "angle (rad)", kind="bars", call=("joints", WALKER),
+    "joint", "angle (rad)", kind="bars", call=lambda: ("joints", walker()),
 )  # fmt: skip
 
 
@@ -120,7 +122,7 @@ def limits_of_joints(rng):
 shape = exercise.task("5.3", "The shape at rest", needs=("5.1", "5.2"), refused=TOOL)
 shape.draws(
     "The body of an evolved walker at rest: eleven segments that hang together.",
-    "x (m)", "y (m)", kind="shapes", call=("outline", WALKER),
+    "x (m)", "y (m)", kind="shapes", call=lambda: ("outline", walker()),
 )  # fmt: skip
 
 
@@ -293,7 +295,7 @@ def varied(rng):
 crossing.draws(
     "What each brain (row) earns in each body (column): the diagonal is at home.",
     "body", "brain", kind="heat", of=lambda answer, *_: answer["its answer"],
-    call=(crossed, EXPERIMENT.format(maxsteps=200, hidden=50, noise=0.01),
+    call=lambda: (crossed, EXPERIMENT.format(maxsteps=200, hidden=50, noise=0.01),
           np.array([np.load(genotype_file(f"bodybrainS{seed}.npy")) for seed in (1, 2, 3)]), 1, 1),
 )  # fmt: skip
 

@@ -105,11 +105,14 @@ def thought(module, brain, observations, memory):
     return {"memories": memories, "actions": actions}
 
 
-BRAIN = weights(np.load(genotype_file("discrimS1.npy")))
+def first_robot():
+    return weights(np.load(genotype_file("discrimS1.npy")))
+
+
 GLANCE = np.exp(-((np.arange(60)[:, None] - 20 - 3 * np.arange(INPUTS)) ** 2) / 40)
 network.draws(
     "A thing passes by: the memory cells keep what was seen, and the wheels answer later, too.",
-    "step", "", kind="curves", call=(thought, BRAIN, GLANCE, np.zeros((2, UNITS))),
+    "step", "", kind="curves", call=lambda: (thought, first_robot(), GLANCE, np.zeros((2, UNITS))),
     of=lambda answer, *_: {"memory cells": np.array(answer["memories"])[:, 0],
                            "wheels": answer["actions"]},
 )  # fmt: skip
@@ -145,7 +148,8 @@ def recorded(module, brain, start, cylinder, seed, way, maxsteps):
 recording.draws(
     "The way of an evolved robot, from the ring to the disc: it finds the cylinder at (200, 150).",
     "x (mm)", "y (mm)", kind="path", of=lambda answer, *_: answer["poses"][:, :2],
-    call=(recorded, BRAIN, np.array([100.0, 300.0, 3.0]), np.array([200.0, 150.0]), 1, "keep", 200),
+    call=lambda: (recorded, first_robot(), np.array([100.0, 300.0, 3.0]),
+                  np.array([200.0, 150.0]), 1, "keep", 200),
 )  # fmt: skip
 
 
@@ -350,8 +354,9 @@ def remembering(module, since, first, afters):
 
 without.draws(
     "What one robot earns with its memory, without it, and with one that stops after 40 steps.",
-    "", "mean return", call=("memory_test", BRAIN, np.array([[100.0, 300, 3], [300, 300, 4]]),
-    np.array([200.0, 150.0]), 1, 40, 200),
+    "", "mean return",
+    call=lambda: ("memory_test", first_robot(), np.array([[100.0, 300, 3], [300, 300, 4]]),
+                  np.array([200.0, 150.0]), 1, 40, 200),
 )  # fmt: skip
 
 
@@ -380,7 +385,7 @@ MINDS = np.linspace(-1, 1, 60)[:, None, None] * np.array([[2.0], [1.0]]) * np.on
 reacting.draws(
     "The wheels' answers to one and the same sight, while what is remembered changes.",
     "from one memory to its opposite", "wheels", kind="curves",
-    call=("reactions", BRAIN, np.zeros(INPUTS), MINDS),
+    call=lambda: ("reactions", first_robot(), np.zeros(INPUTS), MINDS),
 )  # fmt: skip
 
 

@@ -90,7 +90,7 @@ def many_observations(rng):
 recording = exercise.task("7.2", "Recording an episode", needs=("7.1",))
 PLANE = ("angle (rad), 0 is upright", "velocity (rad/s)")
 recording.draws(
-    "An episode is a path through the state space, from the ring to the disc.",
+    "An episode leaves a trail of states: where the dots are far apart, the pendulum is fast.",
     *PLANE, kind="points", of=lambda answer, gains, seed, steps: answer[0],
 )  # fmt: skip
 

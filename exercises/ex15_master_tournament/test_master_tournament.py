@@ -74,7 +74,7 @@ chasing = exercise.task("15.1", "A chase, recorded")
 chasing.draws(
     "Predator and prey, from the rings to the discs: the chase ends where they touch.",
     "x (mm)", "y (mm)", kind="path", of=lambda answer, *_: answer["poses"][..., :2],
-    call=("chase", *some_pair(np.random.default_rng(1), True, 400), 400),
+    call=lambda: ("chase", *some_pair(np.random.default_rng(1), True, 400), 400),
 )  # fmt: skip
 
 

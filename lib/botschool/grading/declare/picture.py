@@ -35,8 +35,9 @@ class Picture:
     kind: str = ""
     of: Callable[..., Any] | None = None
     """Returns what is drawn, of an answer and its arguments: an array, or names and arrays."""
-    call: tuple[Any, ...] = ()
-    """A function's name, or a driver, and arguments that show more than the inputs of a check."""
+    call: tuple[Any, ...] | Callable[[], tuple[Any, ...]] = ()
+    """A function's name, or a driver, and arguments that show more than the inputs of a check; or
+    a function that returns them, if that takes time or reads files."""
     extent: tuple[float, float, float, float] | None = None
     """Left, right, bottom and top of the axes."""
 
