@@ -17,6 +17,7 @@ from botschool.grading.classes.exporting import export
 from botschool.grading.copies import starting
 from botschool.grading.copies.release import release
 from botschool.grading.declare.exercise import load_exercise
+from botschool.grading.report.album import captioned
 from botschool.grading.report.showing import show
 from browser import Browser, find_browser
 from test_nbgrader import every_second, own_function, partly
@@ -68,6 +69,9 @@ def test_finished_file_run_by_itself_makes_its_pictures(copy, number, capfd):
     assert images and all(path.stat().st_size > 1000 for path in images)
     moving = [path for path in images if path.suffix != ".png"]
     assert moving or number == 11  # the only one without a robot
+    exercise = load_exercise(number, copy)
+    shown = captioned(exercise, [path for path in made if path.parent.name[:2] == "ex"])
+    assert {each.says for each in shown} <= set(exercise.captions.values())
     outside = set(os.listdir(copy)) - set(os.listdir(building.ROOT)) - {".release.json", "results"}
     assert not outside
 
