@@ -144,12 +144,13 @@ ODD = {
 
 
 @pytest.mark.parametrize("odd", ODD.values(), ids=ODD)
-def test_no_answer_stops_the_drawing(odd, recwarn):
-    for kind in ("", *KINDS):
-        for expected in (LINE, TABLE, PAIRS, SQUARES, {"a": LINE}, 3.0):
+def test_no_answer_stops_the_drawing(odd):
+    for kind in KINDS:
+        for expected in (LINE, TABLE, PAIRS, SQUARES):
             found = panels_of("f", odd, expected, Picture(".", kind=kind), False)
-            if found:
+            if found and found[0].kind == kind:  # else the shape has chosen another one
                 draw("task $ {", found)
+    assert panels_of("f", odd, {"a": 1.0, "b": 2.0}, Picture("."), False)[0].apart != 0
 
 
 def test_other_lengths_are_told():

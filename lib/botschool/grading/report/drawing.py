@@ -56,10 +56,12 @@ class Panel:
 
     @property
     def apart(self) -> float:
-        """Return the largest difference; 0.0 if there is none to see, NaN for another shape."""
+        """Return the largest difference; 0.0 if none is to be seen, NaN if there is no number."""
         if self.expected is None:
             return 0.0
         if self.yours is None or self.yours.shape != self.expected.shape:
+            return float("nan")
+        if (np.isnan(self.yours) != np.isnan(self.expected)).any():
             return float("nan")
         largest = np.nanmax(np.abs(self.yours - self.expected), initial=0.0)
         scale = np.nanmax(np.abs(self.expected), initial=0.0)
@@ -215,15 +217,11 @@ def _table(axes: Axes, name: str, table: np.ndarray | None, panel: Panel) -> Non
 
 
 def _flat(table: np.ndarray, panel: Panel) -> np.ndarray:
-    """Return the slice of a stack of tables that differs most, as one table."""
-    while table.ndim > 2:
-        at = 0
-        if panel.expected is not None and panel.yours is not None and not np.isnan(panel.apart):
-            apart = np.abs(panel.yours - panel.expected)
-            at = int(np.nanargmax(apart.reshape(len(apart), -1).max(axis=1)))
-            panel = Panel("", panel.yours[at], panel.expected[at], panel.picture)
-        table = table[at]
-    return table
+    """Return the table of a stack that differs most, or its first."""
+    if table.ndim < 3 or not panel.apart > 0:
+        return table if table.ndim < 3 else table[(0,) * (table.ndim - 2)]
+    worst = np.nanargmax(np.abs(panel.yours - panel.expected))
+    return table[np.unravel_index(worst, table.shape)[:-2]]
 
 
 def _overlaid(axes: Axes, panel: Panel) -> None:
