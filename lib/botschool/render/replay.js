@@ -130,7 +130,8 @@ async function choose(number, step = 0) {
   byId("bar").max = shown.rows;
   [...byId("episodes").children].forEach((pill, i) => {
     pill.setAttribute("aria-pressed", i === episode);
-    if (i === episode) pill.scrollIntoView({ block: "nearest", inline: "nearest" });
+    // a page that holds this one stays where it is
+    if (i === episode && window === window.top) pill.scrollIntoView({ block: "nearest", inline: "nearest" });
   });
   seek(step);
 }
