@@ -303,10 +303,10 @@ def responses(activations: np.ndarray, observations: np.ndarray) -> np.ndarray:
 # with its gradient. You decide what is learned from what.
 #
 # - `ppo.collect()` acts for a rollout and returns it. Its arrays `rewards` (bootstrapped as in
-# 13.1), `values` and `ended` have the shape (steps, envs), `last_values` the shape (envs,). `ended`
-# says of each step what `advantages` is told in two pieces: 0 if its episode goes on, 1 if it ended
-# with this step, 2 if time ran out. So `episode_starts` of step t + 1 and, after the last step,
-# `dones` are 1 where `ended` is not 0.
+#   13.1), `values` and `ended` have the shape (steps, envs), `last_values` the shape (envs,).
+#   `ended` says of each step what `advantages` is told in two pieces: 0 if its episode goes on, 1
+#   if it ended with this step, 2 if time ran out. So `episode_starts` of step t + 1 and, after the
+#   last step, `dones` are 1 where `ended` is not 0.
 # - `rollout.advantages` and `rollout.returns` are arrays of the same shape, and hold zeros. Write
 #   your numbers into them: the critic learns the returns, which are the advantages plus the values.
 # - `ppo.minibatch(rows)` returns the steps with these numbers, from 0 to steps times envs - 1;

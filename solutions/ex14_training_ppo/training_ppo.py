@@ -112,9 +112,9 @@ def read_indicators(folder: str) -> dict:
 # %% [markdown]
 # ## Task 14.3. How successful was it?
 #
-# A training can be quick or slow, and lose again what it had. With the mean returns $m_0, m_1,
-# \ldots, m_n$ of the post-evaluations after $s_0, s_1, \ldots, s_n$ steps, the average over the
-# whole training is the area under the curve, divided by its width:
+# A training can be quick or slow, and lose again what it had. With the mean returns
+# $m_0, m_1, \ldots, m_n$ of the post-evaluations after $s_0, s_1, \ldots, s_n$ steps, the average
+# over the whole training is the area under the curve, divided by its width:
 #
 # $$\bar m = \frac{1}{s_n - s_0} \sum_{i=1}^{n} (s_i - s_{i-1}) \frac{m_{i-1} + m_i}{2}$$
 
