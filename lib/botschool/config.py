@@ -80,12 +80,8 @@ class Exp:
 
 
 SECTIONS = ("EXP", "POLICY", "ALGO")
-ARENA = "ARENA"
-"""A section for experiments with a declared arena."""
-ENV = "ENV"
-"""A section of evorobotpy3: its lines are options of the environment."""
-TUNE = "TUNE"
-"""A section for `botschool tune`: values of hyperparameters to try."""
+ARENA, ENV, TUNE = "ARENA", "ENV", "TUNE"
+"""Sections for a declared arena, for options of the environment (as in evorobotpy3), for tuning."""
 ALIASES = {
     f.metadata["alias"]: f.name.lower()
     for entry in ALGORITHMS.values()
