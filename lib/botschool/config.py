@@ -210,8 +210,8 @@ def _experiment(sections: dict[str, dict[str, Entry]], path: str | PathLike[str]
     for keys, sentence in (*conflicts(policy), *ALGORITHMS[exp.algo].conflicts(algo)):
         raise refusal(path, max(lines.get(key.lower(), 0) for key in keys), sentence)
     policy, note = one_layer(policy)
-    marked = sections.get(TUNE, {})
-    return Experiment(exp, policy, algo, arena, Path(path), (*notes, *note), marked)
+    told = (*notes, *note)
+    return Experiment(exp, policy, algo, arena, Path(path), told, sections.get(TUNE, {}))
 
 
 def _take_options(exp: Exp, entries: dict[str, Entry], path: str | PathLike[str]) -> list[str]:

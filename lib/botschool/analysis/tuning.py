@@ -149,7 +149,7 @@ def tune(
             f"{experiment.exp.algo} cannot be tuned: where two sides compete, fitness says little."
         )
     say(_expected(plan, space))
-    options: dict[str, int | str] = {"seed": plan.seed, "seeds": plan.seeds, "steps": plan.steps}
+    options: dict[str, Any] = {"seed": plan.seed, "seeds": plan.seeds, "steps": plan.steps}
     options |= {"experiment": json.dumps(to_dict(experiment)), "space": str(space)}
     return run_trials(
         plan.path,
