@@ -14,8 +14,9 @@ from botschool.rl import settings, tuning
 from botschool.rl.agent import Agent
 from botschool.rl.folder import Evaluations, RunFolder
 from botschool.rl.model import choose
+from botschool.rl.study import Log, ended, open_study
 from botschool.rl.training import train
-from botschool.rl.tuning import SPACES, Log, Plan, tune
+from botschool.rl.tuning import SPACES, Plan, tune
 from running import TESTS
 
 pytestmark = pytest.mark.usefixtures("by_sb3")
@@ -168,10 +169,14 @@ def plan_of(folder, trials=3, **options):
     return Plan("a2c", "tiny_envs:Tiny-v0", folder, trials, BRIEF | options)
 
 
+def study_of(plan, number):
+    return open_study(plan.path, plan.options["seed"], number)
+
+
 def results(plan):
     """(choices, value) of the trials that have one."""
-    study = tuning._study(plan, 0)
-    return [(t.user_attrs["given"], t.value) for t in tuning._ended(study)]
+    study = study_of(plan, 0)
+    return [(t.user_attrs["given"], t.value) for t in ended(study)]
 
 
 def test_the_start_and_some_others_are_tried(tmp_path):
@@ -194,19 +199,19 @@ def test_it_goes_on_as_if_it_had_not_been_stopped(tmp_path):
     calls = itertools.count()
     assert not tune(plan_of(tmp_path / "parts", 4), stopping=lambda: next(calls) > 5)
     parts = plan_of(tmp_path / "parts", 4)
-    tuning._study(parts, 2).ask()  # as a process that was killed leaves it
+    study_of(parts, 2).ask()  # as a process that was killed leaves it
     assert tune(parts)
     assert results(parts) == results(whole)
-    ended = optuna.trial.TrialState
-    left = tuning._study(parts, 4).get_trials()
-    assert {trial.state for trial in left} == {ended.COMPLETE, ended.FAIL}
+    states = optuna.trial.TrialState
+    left = study_of(parts, 4).get_trials()
+    assert {trial.state for trial in left} == {states.COMPLETE, states.FAIL}
     assert parts.best.read_text() == whole.best.read_text()
 
 
 def test_a_trial_is_worth_the_mean_of_its_trainings(tmp_path, monkeypatch):
     trained = []
 
-    def learn(settings, folder, report, stopping):
+    def learn(settings, folder, report, stopping, hurrying):
         trained.append(settings.seed)
         value = float(settings.seed)
         ends = Evaluations(np.array([12, 24]), np.full((2, 2), value), np.full((2, 2), 5))

@@ -20,6 +20,8 @@ class DiscountedReturns:
         """Of each environment's present episode: whether it is left out, steps, return, discounted
         return."""
         self._ppo = ppo
+        gamma = ppo.hyperparameters.gamma
+        self._powers = np.cumprod([1.0, *[gamma] * ppo.limit])
         self._deviation = self._deviation_now()
 
     def add(self, returns: np.ndarray) -> np.ndarray:
@@ -27,7 +29,7 @@ class DiscountedReturns:
 
         returns: their returns, as PPO.episodes gives them, in the same order.
         """
-        rollout, gamma = self._ppo.rollout, self._ppo.hyperparameters.gamma
+        rollout = self._ppo.rollout
         ended = rollout.ended != 0
         steps = np.arange(len(ended))[:, None]
         last = np.maximum.accumulate(np.where(ended, steps, -1), axis=0)
@@ -35,10 +37,10 @@ class DiscountedReturns:
         """Step at which the environment's episode before this one ended, -1: before the rollout."""
         first = self._ppo.normalize and self._ppo.steps <= ended.size
         known = ((last >= 0) | (self.carried[0] == 0)) & (not first)
-        age = steps - last - 1 + np.where(last < 0, self.carried[1], 0)
+        age = steps - last - 1 + np.where(last < 0, self.carried[1], 0).astype(int)
         # where time ran out, the reward has a prediction in it: the episode's return tells the rest
         rewards = np.where(rollout.ended == 2, 0.0, rollout.rewards) * self._scale(len(ended))
-        weights = gamma**age
+        weights = self._powers[age]
         sums = [
             _within(values, carried, last)
             for values, carried in zip((rewards, rewards * weights), self.carried[2:], strict=True)
