@@ -48,7 +48,7 @@ def test_a_user_who_stops_waits_for_no_episode(algo, tmp_path, monkeypatch):
     def stopping():
         nonlocal asked
         asked += 1
-        return asked > 20
+        return asked > 8
 
     settings = choose(algo, "Endless-v0", steps=100, envs=1, episodes=2, evaluations=1)
     run, found = learn(settings, tmp_path, lambda steps, found: None, stopping=stopping)

@@ -54,7 +54,7 @@ class PostEvaluation(BaseCallback):
     ) -> None:
         """Prepare the episodes; hurrying: whether the user waits for the end of the training."""
         super().__init__()
-        self._hurrying, self._asked = hurrying, 0.0
+        self._hurrying, self._asked, self._looked = hurrying, 0.0, 0.0
         self.run, self.settings = run, settings
         self.report, self.stopping = report, stopping
         self.found: Evaluations | None = None
@@ -119,6 +119,9 @@ class PostEvaluation(BaseCallback):
     def _late(self) -> bool:
         """Return whether the user has waited for PATIENCE seconds."""
         now = time.monotonic()
+        if now < self._looked + 0.05:
+            return False
+        self._looked = now
         if not self._hurrying():
             self._asked = now
         return now > self._asked + PATIENCE
