@@ -57,6 +57,11 @@ def evolve(
                 "resume=True continues the runs of a folder: name the folder, and leave out force."
             )
         made = experiment_of(experiment, hyperparameters, algorithm)
+        if steps is not None and steps > 1e6 * getattr(made.algo, "maxmsteps", np.inf):
+            raise BotschoolError(
+                f"steps = {steps:,} is beyond the end of the run, maxmsteps = "
+                f"{made.algo.maxmsteps:g} million: set maxmsteps instead."
+            )
         place = Folder(folder)
         options = Options(workers, steps, generations, resume=resume, force=force)
         if not _run_all(made, chosen, place.path, options, progress):
@@ -114,7 +119,9 @@ def _run_all(
 
 def _seeds(seeds: Iterable[int]) -> list[int]:
     """Return the seeds as a list. Raises BotschoolError."""
-    chosen = list(seeds) if isinstance(seeds, Iterable) else [seeds]
+    if not isinstance(seeds, Iterable):
+        raise BotschoolError(f"seeds is {seeds!r:.40}: write seeds=range(10) for ten, or seed=3.")
+    chosen = list(seeds)
     for each in chosen:
         whole = isinstance(each, (int, np.integer)) and not isinstance(each, bool)
         if not whole or not 0 <= each <= 2**62:

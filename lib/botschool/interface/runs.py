@@ -247,7 +247,7 @@ class Runs(Sequence[Run]):
         return output or figure
 
     def __repr__(self) -> str:
-        lines = [f"Runs of {len(self)} seeds:", *map(repr, self)]
+        lines = [f"{len(self)} run{'s' * (len(self) > 1)}:", *map(repr, self)]
         if len(self) > 1 and self[0]._experiment is not None:
             lines.append(f"mean of the runs: {fresh.told(self.fitness)} (95 % interval)")
         return "\n  ".join(lines)

@@ -73,6 +73,7 @@ def experiment_of(
     algorithm: a class with ask and tell, or a function, for `algo`; it gets the hyperparameters
     that no section has. Raises BotschoolError.
     """
+    check_words(given)
     parts, path = _parts(source)
     before = dict(parts.get("algo", {}))
     given = {SHORT.get(key, key): value for key, value in given.items()}
@@ -93,6 +94,12 @@ def experiment_of(
             key: value for key, value in parts["algo"].items() if before.get(key) != value
         }
     return replace(from_dict(parts, str(path or "experiment")), path=path)
+
+
+def check_words(given: dict[str, Any]) -> None:
+    """Raise BotschoolError for a word of Stable-Baselines3 that another word means here."""
+    if "total_timesteps" in given:
+        raise BotschoolError("total_timesteps means steps here: write steps=100_000.")
 
 
 def _parts(source: Source) -> tuple[dict[str, dict[str, Any]], Path | None]:

@@ -14,7 +14,7 @@ import numpy as np
 
 from botschool.evolution import fresh
 from botschool.interface.showing import Folder, bars, interruptible
-from botschool.interface.sources import in_python_words
+from botschool.interface.sources import check_words, in_python_words
 from botschool.rl.folder import RunFolder
 
 HISTORY = np.dtype([("steps", np.int64), ("mean", float), ("sd", float), ("length", float)])
@@ -49,9 +49,13 @@ def train(
     BotschoolError.
     """
     from botschool.rl.model import choose
+    from botschool.rl.native.problem import native_problem
     from botschool.rl.training import learn, reached
 
+    if native_problem(f"botschool/{env}"):
+        env = f"botschool/{env}"
     with in_python_words(), interruptible() as stopping:
+        check_words(hyperparameters)
         settings = choose(
             algo, env, policy, hyperparameters, envs, steps, seed, wrappers=wrappers, engine=engine
         )
