@@ -14,8 +14,8 @@ from botschool.wrappers import parse
 from running import TESTS
 
 PAGES = (
-    "agents", "algorithms_page", "coevolution_page", "evolution_and_ppo_page", "results_page",
-    "spatial_page", "tuned",
+    "agents", "algorithms_page", "coevolution_page", "evolution_and_ppo_page", "optimisers",
+    "results_page", "spatial_page", "tuned",
 )  # fmt: skip
 
 

@@ -429,8 +429,9 @@ def _title(folders: Sequence[Path]) -> str:
     """Return what the runs' numbers are: some may come from a time without fresh episodes."""
     runs = [run for folder in folders for run in find_runs(folder, lambda sentence: None)]
     measured = {run.fresh is not None for run in runs}
-    names = [ROBOTS] * (True in measured) + ["best post-evaluated fitness"] * (False in measured)
-    return ", or ".join(names)
+    if len(measured) == 2:
+        return "best robots, in fresh episodes or post-evaluated"
+    return ROBOTS if True in measured else "best post-evaluated fitness"
 
 
 def print_table(title: str, fitness: dict[str, np.ndarray]) -> None:
