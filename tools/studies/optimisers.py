@@ -1,6 +1,6 @@
 """Compare optimisers of other libraries on one problem: the examples of docs/python.md.
 
-    python tools/studies optimisers [STEPS]    runs them with five seeds each (1e6 steps a run)
+    python tools/studies optimisers [STEPS]    runs them with three seeds each (3e5 steps a run)
 
 The code is that of the page, with more generations. Ours run on the same problem beside them.
 """
@@ -25,9 +25,9 @@ import botschool
 DATA = Path(__file__).parent / "data" / "optimisers.json"
 PAGE = ROOT / "docs" / "python.md"
 LIBRARIES = ("cma", "evosax", "nevergrad", "scipy")
-OURS = ("sNES", "CMA-ES")
-SEEDS = (1, 2, 3, 4, 5)
-STEPS = 1e6
+OURS = {"sNES": {"popsize": 40}, "OpenAI-ES": {"samplesize": 20, "noiseStdDev": 0.1}}
+SEEDS = (1, 2, 3)
+STEPS = 3e5
 POINTS = 60
 FRESH, EPISODES = 200_000, 50
 
@@ -98,7 +98,7 @@ def own(algo: str, seed: int, steps: float) -> dict:
     problem = problem_of_page()
     began = time.process_time()
     run = botschool.evolve(
-        problem.experiment, seed=seed, algo=algo, maxmsteps=steps / 1e6, popsize=40, workers=2
+        problem.experiment, seed=seed, algo=algo, maxmsteps=steps / 1e6, workers=2, **OURS[algo]
     )
     total = time.process_time() - began
     curve = list(zip(run.history["steps"].tolist(), run.history["best"].tolist(), strict=True))
@@ -123,8 +123,13 @@ def main() -> None:
     """Run everything, and keep it."""
     steps = float(sys.argv[1]) if len(sys.argv) > 1 else STEPS
     code, load = examples(), os.getloadavg()[0]
-    runs = {name: [library(name, code[name], s, steps) for s in SEEDS] for name in LIBRARIES}
-    runs |= {f"botschool {algo}": [own(algo, s, steps) for s in SEEDS] for algo in OURS}
+    runs: dict[str, list[dict]] = {}
+    for seed in SEEDS:
+        for name in LIBRARIES:
+            runs.setdefault(name, []).append(library(name, code[name], seed, steps))
+        for algo in OURS:
+            runs.setdefault(f"botschool {algo}", []).append(own(algo, seed, steps))
+        print({name: round(found[-1]["new"], 1) for name, found in runs.items()}, flush=True)
     loads = f"{load:.0f} to {os.getloadavg()[0]:.0f}"
     kept = {"machine": machine(), "load": loads, "steps": steps, "runs": runs}
     DATA.write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
@@ -133,7 +138,7 @@ def main() -> None:
 
 
 NAMES = {
-    "cma": "CMA-ES of cma",
+    "cma": "diagonal CMA-ES of cma",
     "evosax": "SNES of evosax",
     "nevergrad": "TwoPointsDE of nevergrad",
     "scipy": "differential evolution of scipy",
@@ -158,7 +163,7 @@ def rows(kept: dict) -> str:
     ]
     return (
         f"{table(columns, lines)}\n\n"
-        f"(Mean and standard deviation of {len(SEEDS)} seeds after {kept['steps'] / 1e6:g} million "
+        f"(Mean and standard deviation of {len(SEEDS)} seeds after {kept['steps']:,.0f} "
         "steps each, 40 candidates a generation; without importing and compiling. "
         f"{kept['machine']}; busy with other work, load {kept['load']}. The seconds are "
         "those of all cores together. The examples are not tuned: they show how to call, not which "
@@ -171,12 +176,12 @@ def figure(kept: dict) -> Figure:
     """Draw median and middle half of the best return so far against steps."""
     made = Figure(figsize=(8, 4.2), layout="constrained")
     axes = made.subplots()
-    steps = np.linspace(0, kept["steps"] / 1e6, POINTS + 1)[1:]
+    steps = np.linspace(0, kept["steps"] / 1e3, POINTS + 1)[1:]
     for (name, runs), colour in zip(
         kept["runs"].items(), (*COLOURS, GREY, "#000000"), strict=False
     ):
         band(axes, steps, [run["curve"] for run in runs], colour, NAMES.get(name, name))
-    panel(axes, xlabel="million steps", ylabel="return of the best candidate so far")
+    panel(axes, xlabel="thousand steps", ylabel="return of the best candidate so far")
     legend_above(made, axes, 3)
     return made
 
