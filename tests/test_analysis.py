@@ -253,7 +253,7 @@ def test_averages_are_printed_and_drawn(tmp_path, capsys, drawn):
     plots.plot_ave([tmp_path / "acrobot", tmp_path / "pendulum"], tmp_path / "a.png")
     rows = [line.split() for line in capsys.readouterr().out.splitlines()]
     assert ["acrobot", "3.00", "6.57", "2.65", "3", "1.00", "6.00"] in rows
-    assert ["pendulum", "-150.0", "-", "1", "-150.0", "-150.0"] in rows
+    assert ["pendulum", "-150.0", "-", "-", "1", "-150.0", "-150.0"] in rows
     assert [bar.get_width() for bar in drawn[0].axes[0].patches] == [3.0, -150.0]
 
 
