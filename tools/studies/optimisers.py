@@ -1,6 +1,6 @@
 """Compare optimisers of other libraries on one problem: the examples of docs/python.md.
 
-    python tools/studies optimisers [STEPS]    runs them with three seeds each (3e5 steps a run)
+    python tools/studies optimisers [STEPS]    runs them with three seeds each (1e6 steps a run)
 
 The code is that of the page, with more generations. Ours run on the same problem beside them.
 """
@@ -27,7 +27,7 @@ PAGE = ROOT / "docs" / "python.md"
 LIBRARIES = ("cma", "evosax", "nevergrad", "scipy")
 OURS = {"sNES": {"popsize": 40}, "OpenAI-ES": {"samplesize": 20, "noiseStdDev": 0.1}}
 SEEDS = (1, 2, 3)
-STEPS = 3e5
+STEPS = 1e6
 POINTS = 60
 FRESH, EPISODES = 200_000, 50
 
