@@ -168,7 +168,7 @@ def rows(kept: dict) -> str:
         f"{kept['machine']}; busy with other work, load {kept['load']}. The seconds are "
         "those of all cores together. The examples are not tuned: they show how to call, not which "
         "library is best. "
-        "`python tools/studies optimisers`)"
+        "`OMP_NUM_THREADS=1 python tools/studies optimisers`)"
     )
 
 
