@@ -438,3 +438,22 @@ def test_answers_that_lack_a_part_are_not_the_same():
     assert check.equal((1.0,), {"value": 2.0, "more": 1}, {"value": 2.0})
     assert not check.equal((1.0,), {"value": 2.0}, {})
     assert not check.equal((1.0,), {}, {"value": 2.0})
+
+
+def test_the_other_draw_of_an_input_is_of_the_same_kind():
+    """Two inputs change places in the order of size, and have arguments of their own kinds."""
+    exercise, orders = Exercise(4, "Kinds", file="tiny.py"), set()
+
+    @same(exercise.task("4.1", "Kinds"), 1, "mixed")
+    def kinds(rng):
+        for kind in ("one", "two"):
+            yield kind, rng.normal(size=rng.integers(1, 9))
+
+    (_, _, check) = exercise.tasks[0].checks[0]
+    for secret in "abcdefgh":
+        exercise.secret = secret
+        pairs = check._pairs()
+        assert all(own[0] == other[0] for own, other in pairs)
+        assert len(pairs[0][0][1]) <= len(pairs[1][0][1])
+        orders.add(pairs[0][0][0])
+    assert orders == {"one", "two"}

@@ -117,13 +117,20 @@ class Same:
         self._draw = inputs
         self.__name__ = inputs.__name__
 
-    def inputs(self, draw: str = "") -> list[tuple]:
-        """Return the inputs, the smallest first; draw: for other random ones of the same kind."""
+    def inputs(self) -> list[tuple]:
+        """Return the inputs, the smallest first."""
+        return [own for own, _ in self._pairs()]
+
+    def _pairs(self) -> list[tuple[tuple, tuple]]:
+        """Return the inputs, the smallest first, each with that of another secret."""
+        own, others = self._drawn(""), self._drawn(" of another secret")
+        pairs = [*zip(own, others, strict=True)]
+        return sorted(pairs, key=lambda pair: len(pack([*pair[0]])))
+
+    def _drawn(self, draw: str) -> list[tuple]:
         key = f"{self.task.id} {self.__name__}{draw}"
         rng = np.random.default_rng(self.task.exercise.seed(key))
-        found = [each if isinstance(each, tuple) else (each,) for each in self._draw(rng)]
-        sizes = [len(pack([*each])) for each in found]
-        return [found[i] for i in sorted(range(len(found)), key=sizes.__getitem__)]
+        return [each if isinstance(each, tuple) else (each,) for each in self._draw(rng)]
 
     def __call__(self, student: Any) -> None:
         """Raise Wrong unless the submission answers as our solution does."""
@@ -201,8 +208,7 @@ class Same:
     def more(self) -> Iterator[tuple[str, tuple]]:
         """Yield a name from KEEPS and arguments: what every function must keep."""
         ours = self.task.exercise.ours
-        pairs = zip(self.inputs(), self.inputs(" of another secret"), strict=True)
-        for arguments, others in list(pairs)[: OF_A_DRIVER if callable(self.what) else BASES]:
+        for arguments, others in self._pairs()[: OF_A_DRIVER if callable(self.what) else BASES]:
             answer = ours.answer(self.what, arguments)
             if answer.seconds > QUICK:
                 return
