@@ -21,7 +21,6 @@ from botschool.grading.declare.mistakes import case_files
 from botschool.grading.declare.trust import check_trusted, trust
 from botschool.grading.packed import PACKED, is_packed, pack, pack_answers, pack_module
 from botschool.output import written_whole
-from botschool.page.exercise import PAGE, has_page, linked, write_exercise_page
 from botschool.paths import material
 from botschool.sandbox.scratch import remove_tree
 
@@ -292,6 +291,9 @@ def _pack_answers(root: Path, made: Path, wanted: bool) -> None:
 
 def _add_pages(made: Path) -> str:
     """Write each exercise's living page beside its text; return why there are none, or ""."""
+    # A wheel is built before the module that pages need.
+    from botschool.page.exercise import PAGE, has_page, linked, write_exercise_page
+
     for text in sorted(made.glob("exercises/ex[0-9][0-9]_*/README.md")):
         if not has_page(text.parent):
             continue
