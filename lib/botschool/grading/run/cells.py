@@ -236,9 +236,8 @@ def _without_errors(text: str) -> tuple[str, list[list]]:
         found = next(((n, each) for n, each in enumerate(tries, 1) if _is_python(each)), None)
         taken = "".join(pieces[: found[0] if found else 1])
         names = _DEFINED.findall(taken)
-        if not found and (names or not cut):  # lines at the margin after it belong to it
-            error = _parsed(taken)
-            assert isinstance(error, SyntaxError)
+        error = None if found else _parsed(taken)
+        if isinstance(error, SyntaxError) and (names or not cut):  # else it belongs to that before
             said = f"{type(error).__name__}: {error.msg.partition(' (detected at ')[0]}"
             broken.append([line + (error.lineno or 1), error.offset or 0, said, names])
         made, cut = made + (found[1] if found else "\n" * taken.count("\n")), not found
