@@ -104,4 +104,9 @@ def test_a_training_reaches_the_goal(browser, tmp_path):
     assert len(state(browser, "elite")["rows"]) < 30
     assert browser.run("mean(figures.elite.episodes.map(({ total }) => total))") >= 195
     assert "the training ends" in browser.run("figures.elite.line.textContent")
+    browser.run("figures.elite.play(), figures.elite.advance(1)")  # it begins anew
+    assert browser.run("figures.elite.playing")
+    browser.run("figures.elite.stop()")
+    s = state(browser, "elite")
+    assert s["rows"] == [] and len(s["past"]) == 1
     assert browser.errors == []

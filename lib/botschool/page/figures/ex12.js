@@ -16,8 +16,8 @@ figure("elite", {
   },
   buttons: {
     once: ["One iteration", (f) => iterate(f)],
-    again: ["Begin again", (f) => again(f)],
-    chance: ["Other random numbers", (f) => again(f, f.state.seed + 1)],
+    again: ["Begin again", (f) => { f.stop(); again(f); }],
+    chance: ["Other random numbers", (f) => { f.stop(); again(f, f.state.seed + 1); }],
   },
   play: "Train",
   fps: (f) => 60 * f.state.speed,
@@ -81,8 +81,8 @@ function runs(f) {
   Object.assign(s, { phase: "run", held: 0 });
 }
 
+// Keeps the line of the training that was seen, and begins one.
 function again(f, seed = f.state.seed) {
-  f.stop();
   const { state: s } = f;
   if (s.rows.length > 1) s.past = [...s.past, { means: s.rows.map((row) => mean(row.returns)) }].slice(-6);
   trained(Object.assign(s, { seed }));
