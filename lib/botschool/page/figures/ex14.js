@@ -4,7 +4,7 @@
 const RACES = {
   cartpole: { words: "CartPole", limit: 300000, range: [0, 520], long: (mean) => mean },
   pendulum: { words: "Pendulum", limit: 280000, range: [-1550, 0], long: () => 200 },
-  acrobot: { words: "Acrobot", limit: 540000, range: [-510, -50], long: (mean) => -mean },
+  acrobot: { words: "Acrobot", limit: 540000, range: [-250, -55], long: (mean) => -mean },
 };
 const SIDES = { es: ["evolution", "orange"], ppo: ["PPO", "blue"] };
 const EPISODES = 20; // of a post-evaluation
@@ -30,7 +30,7 @@ figure("race", {
     for (const robot of Object.values(f.robots)) {
       for (let i = 0; i < 2; i++) {
         robot.step();
-        if (robot.ended) acts(robot, robot.next);
+        if (robot.ended || (robot.next !== robot.own && robot.steps >= 100)) acts(robot, robot.next);
       }
     }
     const { limit } = RACES[s.problem];
@@ -50,7 +50,7 @@ figure("race", {
       pen.fillRect(...boxes[i]);
       f.robots[side].draw(pen, boxes[i]);
       label(pen, words, boxes[i][0] + 8, boxes[i][1] + 13, hue, "left");
-      label(pen, `return ${number(f.robots[side].total, 0)}`, boxes[i][0] + boxes[i][2] - 8, boxes[i][1] + 13, "muted");
+      label(pen, `return ${number(f.robots[side].total, 0)}`, boxes[i][0] + boxes[i][2] - 8, boxes[i][1] + boxes[i][3] - 13, "muted");
     });
     plot.axes();
     plot.clipped(() => {
@@ -65,7 +65,7 @@ figure("race", {
   status(f) {
     const { state: s } = f;
     const told = Object.entries(SIDES).map(([side, [words]]) =>
-      `${words}: ${Math.round(s.spent[side]).toLocaleString("en")} steps in ${number(f.seconds[side], 1)} s, best ${s[side].length ? number(s[side].at(-1)[1], 0) : "–"}`);
+      `${words}: ${Math.round(s.spent[side]).toLocaleString("en")} steps in ${number(f.seconds[side])} s, best ${s[side].length ? number(s[side].at(-1)[1], 0) : "–"}`);
     return `seed ${s.seed} · ${told.join(" · ")}`;
   },
   says({ state: s }) {
@@ -106,8 +106,8 @@ function another(f) {
 
 // Puts a robot at the beginning of its next episode, with these parameters.
 function acts(robot, genotype, episode = robot.episode + 1) {
-  Object.assign(robot, { next: genotype, episode });
   robot.load(genotype);
+  Object.assign(robot, { next: robot.own, episode });
   robot.start(episode);
 }
 
