@@ -148,7 +148,7 @@ function panels(f) {
   return {
     map: f.plot({ x: [-0.6, 1.6], y: [-0.6, 1.6], box: [-46, -10, side + 58, side + 34] }),
     seen: f.plot({ x: [-0.08, 1.08], y: [-0.08, 1.08], box: [left, top, wide, high], labels: ["hidden neuron 1", "hidden neuron 2"], ticks: [2, 2] }),
-    curve: f.plot({ x: [0, Math.max(200, losses.length)], y: [0, Math.max(0.3, ...losses)], box: second, labels: ["epoch", ""], ticks: [isPhone(f) ? 2 : 4, 3] }),
+    curve: f.plot({ x: [0, Math.max(200, losses.length)], y: [0, between(Math.max(...losses, 0), 0.3, 0.6)], box: second, labels: ["epoch", ""], ticks: [isPhone(f) ? 2 : 4, 3] }),
   };
 }
 

@@ -7,15 +7,15 @@ const isPhone = (f) => f.section.clientWidth < 560;
 // What a strip begins with. values: one more than rewards, of what is observed after the last step.
 const STRIPS = {
   surprise: () => ({ rewards: filled((t) => (t === 15 ? 1 : 0)), values: filled(0, LENGTH + 1), end: 8 }),
-  fall: () => ({ rewards: filled(1), values: filled(1.6, LENGTH + 1), end: 12 }),
+  fall: () => ({ rewards: filled(0.2), values: filled(2, LENGTH + 1), end: 12, gamma: 0.9 }), // it expects just this
   luck: () => ({ rewards: normals(5, 0, LENGTH).map((v) => between(0.7 * v, -2, 2)), values: filled(0, LENGTH + 1), end: 0 }),
   tiny: () => ({ rewards: [1, 1, 1], values: [2, 2, 2, 2], end: 3, gamma: 0.5, lambda: 1 }),
 };
 
 figure("strip", {
   title: "Who gets the praise?",
-  tries: "one reward comes at step 15, and the critic expected nothing. First guess: with <b>λ</b> = 0, which actions are praised for it, and with λ = 1? Then move the slider, drag rewards and values up and down, and drag the dashed line, at which an episode ends.",
-  notice: "a greater λ hands a surprise back to earlier actions, but never across the end of an episode. A value that is too high is not only a mistake of its own step. With <b>luck</b>, λ = 1 judges each action by everything that happened later.",
+  tries: "an advantage says how much better it went than the critic expected. Here one reward comes at step 15, and it expected nothing. First guess: with <b>λ</b> = 0, which actions are praised, and with λ = 1? Move the slider, and drag rewards, values and the dashed line, at which an episode ends.",
+  notice: "a greater λ hands a surprise back to earlier actions, but never across the end of an episode. In <b>a fall</b>, the actions just before it get the blame. With <b>luck</b>, λ = 1 judges each action by everything that happened later.",
   aspect: (f) => (isPhone(f) ? 0.7 : 1.35),
   state: () => judged({ strip: "surprise", gamma: 0.99, lambda: 0.95, ...STRIPS.surprise() }),
   sliders: {
