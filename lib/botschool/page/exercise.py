@@ -26,7 +26,9 @@ from botschool.paths import material
 from botschool.problems.native import NativeProblem
 from botschool.render.replay import drawing, palette
 
-SCRIPTS = ("core.js", "scenes.js", "hands.js", "figures/kit.js", "figures/plot.js", "figures/robot.js")
+SCRIPTS = (
+    "core.js", "scenes.js", "hands.js", "figures/kit.js", "figures/plot.js", "figures/robot.js",
+)  # fmt: skip
 PAGE = "page.html"
 """The page's name in the folder of its exercise."""
 POINTER = re.compile(r"^\*\*See and touch it:\*\* .*?(`botschool start \d+`).*\n\n", re.MULTILINE)
