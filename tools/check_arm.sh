@@ -1,5 +1,5 @@
 #!/bin/sh
-# The recorded runs of tests/test_golden.py on 64-bit ARM, emulated on an x86 machine with Debian or Ubuntu, and the core
+# The recorded runs of tests/engine/test_golden.py on 64-bit ARM, emulated on an x86 machine with Debian or Ubuntu, and the core
 # compiled for macOS and Windows: `make check-arm`. Needs qemu-user and g++-aarch64-linux-gnu. Some 15 minutes of two cores.
 set -eu
 
@@ -55,7 +55,7 @@ END
 chmod +x build/arm/python
 
 echo "Playing the recorded runs on an emulated ARM processor"
-build/arm/python tests/test_golden.py >build/arm/golden.json
+build/arm/python tests/engine/test_golden.py >build/arm/golden.json
 "$python" - <<'END'
 import json
 here, there = (json.load(open(name)) for name in ("tests/golden.json", "build/arm/golden.json"))

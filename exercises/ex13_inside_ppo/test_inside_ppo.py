@@ -1,6 +1,6 @@
 """Grader of exercise 13; run it with `botschool grade 13`.
 
-All tasks compare with our solution; tests/test_inside_ppo.py proves that it computes what
+All tasks compare with our solution; tests/exercises/test_inside_ppo.py proves that it computes what
 Stable-Baselines3's own code computes.
 
 Stochastic check (13.8): with five seeds, the loop must reach 0.3 of the engine's mean return after

@@ -1,4 +1,4 @@
-"""The students' copy from nothing to the picture; tests/test_release.py is the quick form."""
+"""The students' copy from nothing to the picture; tests/house/test_release.py is the quick form."""
 
 import json
 import os

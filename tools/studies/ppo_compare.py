@@ -3,7 +3,7 @@
     python tools/studies ppo_compare        curves of Stable-Baselines3 on Acrobot, two minutes
 
 Both train on CartPole-v1 and Pendulum-v1 with the same hyperparameters and several seeds. The
-curves on Acrobot go to data/sb3_curves.json: tests/test_policy_gradients_curves.py puts those of
+curves on Acrobot go to data/sb3_curves.json: tests/rl/test_policy_gradients_curves.py puts those of
 the native engine beside them.
 """
 

@@ -5,7 +5,8 @@ the whole difference, to rounding, and None otherwise. `diagnose` asks the detec
 (shapes, values in other places, order), then the detectors of numbers.py (numbers computed from the
 right ones), and returns the first sentence. A sentence names the mistake, never the right numbers.
 To add a detector, write the function, decorate it with @detector, and give its example in
-tests/test_grading_diagnosis.py. That test also checks that no detector explains random numbers.
+tests/grading/test_grading_diagnosis.py. That test also checks that no detector explains random
+numbers.
 """
 
 from __future__ import annotations

@@ -1,0 +1,519 @@
+"""Experiment files: what loads, what is refused, and the sentence that a learner then reads."""
+
+import json
+import math
+import subprocess
+import sys
+from dataclasses import asdict
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from botschool import config, npy
+from botschool.config import (
+    Coevo2Config,
+    Exp,
+    Experiment,
+    OpenAIESConfig,
+    PolicyConfig,
+    SSSConfig,
+    describe,
+    from_dict,
+    load,
+    to_dict,
+)
+from botschool.errors import BotschoolError
+
+EXPERIMENTS = sorted((Path(__file__).parents[2] / "data" / "experiments").glob("*.ini"))
+
+ARENA_DEFAULTS = {
+    "width": 400.0,
+    "height": 400.0,
+    "steps": 1000,
+    "sensors": "infrared",
+    "noise": 0.0,
+    "reward": "avoid",
+    "distance": 60.0,
+    "collisions": "block",
+    "light_distance": 200.0,
+    "laser_beams": 8,
+    "laser_angle": 360.0,
+    "laser_range": 500.0,
+    "robot1": "",
+    "wall1": "",
+    "cylinder1": "",
+    "light1": "",
+    "zone1": "",
+}
+POLICY_DEFAULTS = {
+    "nrobots": 1,
+    "heterogeneous": 0,
+    "episodes": 1,
+    "pepisodes": 1,
+    "maxsteps": 1000,
+    "pmaxsteps": 0,
+    "nhiddens": 50,
+    "nhiddens2": 0,
+    "nlayers": 1,
+    "bias": 0,
+    "out_type": 2,
+    "nbins": 1,
+    "architecture": 0,
+    "afunction": 2,
+    "winit": 0,
+    "action_noise": 0,
+    "action_noise_range": 0.01,
+    "normalize": 0,
+    "clip": 0,
+    "wrange": 1.0,
+    "filters": "16, 32",
+    "kernels": "8, 4",
+    "strides": "4, 2",
+}
+OPENAI_ES_DEFAULTS = {
+    "maxmsteps": 1,
+    "stepsize": 0.01,
+    "samplesize": 20,
+    "noiseStdDev": 0.02,
+    "wdecay": 0,
+    "symseed": 1,
+    "saveeach": 60,
+}
+SSS_DEFAULTS = {"maxmsteps": 1, "popsize": 20, "mutrate": 0.02, "saveeach": 60}
+GAUSSIAN_DEFAULTS = {"maxmsteps": 1, "popsize": 0, "sigma": 0.3, "saveeach": 60}
+NATURAL_DEFAULTS = GAUSSIAN_DEFAULTS | {"etamu": 1, "etasigma": 0}
+COEVO2_DEFAULTS = {
+    "ngenerations": 1000,
+    "popsize": 80,
+    "selsize": 10,
+    "samplesize": 20,
+    "stepsize": 0.01,
+    "noiseStdDev": 0.02,
+    "wdecay": 0,
+    "evolving": "best",
+    "saveeach": 100,
+}
+ARCHIVE_DEFAULTS = {
+    "maxmsteps": 75000,
+    "ngenerations": 0,
+    "popsize": 1,
+    "samplesize": 20,
+    "stepsize": 0.01,
+    "noiseStdDev": 0.02,
+    "wdecay": 0,
+    "ncompetitors": 10,
+    "checkoverfiteveryn": 0,
+    "saveeach": 1000,
+}
+COMPETITIVE_DEFAULTS = {
+    "coevo2": COEVO2_DEFAULTS,
+    "archive": ARCHIVE_DEFAULTS
+    | {"addtoarchiveevery": 10, "seldifferentiated": 0, "preferential": 1},
+    "archivestar": ARCHIVE_DEFAULTS
+    | {"popsize": 5, "addtoarchiveevery": 10, "seldifferentiated": 1, "preferential": 1},
+    "maxsolvestar": ARCHIVE_DEFAULTS | {"nphases": 10, "archivelen": 25000},
+}
+
+
+def text(policy="", algo="", exp="environment = CartPole-v1"):
+    """An experiment file: [EXP] in line 1, [POLICY] from line 3, [ALGO] after it."""
+    return f"[EXP]\n{exp}\n[POLICY]\n{policy}\n[ALGO]\n{algo}\n"
+
+
+def write(folder, content, name="own.ini"):
+    path = folder / name
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    return path
+
+
+def refused(path):
+    """The sentence with which `load` refuses, without the path that it must start with."""
+    with pytest.raises(BotschoolError) as caught:
+        load(path)
+    sentence = str(caught.value)
+    assert sentence.startswith(str(path))
+    assert "\n" not in sentence and sentence[-1] in ".?" and sentence[-2] not in ".?"
+    return sentence[len(str(path)) :]
+
+
+def test_defaults(tmp_path):
+    for algo, defaults in (
+        ("OpenAI-ES", OPENAI_ES_DEFAULTS),
+        ("SSS", SSS_DEFAULTS),
+        ("CMA-ES", GAUSSIAN_DEFAULTS | {"diagonal": 0, "active": 1}),
+        ("xNES", NATURAL_DEFAULTS),
+        ("sNES", NATURAL_DEFAULTS),
+        *COMPETITIVE_DEFAULTS.items(),
+    ):
+        path = write(tmp_path, text(exp=f"environment = X-v0\nalgo = {algo}"))
+        assert to_dict(load(path)) == {
+            "exp": {
+                "environment": "X-v0",
+                "algo": algo,
+                "robots": "",
+                "wrappers": "",
+                "options": "",
+            },
+            "policy": POLICY_DEFAULTS,
+            "algo": defaults,
+        }
+    assert asdict(Exp("X-v0")) == {
+        "environment": "X-v0",
+        "algo": "OpenAI-ES",
+        "robots": "",
+        "wrappers": "",
+        "options": "",
+    }
+
+
+def test_every_value_is_read_with_its_type(tmp_path):
+    policy = "nrobots=2\nheterogeneous=1\nepisodes=3\npepisodes=7\nmaxsteps=1000.0\nnhiddens=1e2\n"
+    policy += "nhiddens2=30\nnlayers=2\nbias=1\nout_type=4\nnbins=5\nafunction=3\nwinit=2\n"
+    policy += "action_noise=2\naction_noise_range=5e-2\nnormalize=1\nclip=1\nwrange=.5"
+    algo = "maxmsteps=0.25\nstepsize=1e-2\nsamplesize=250\nnoiseStdDev=2.E-2\nwdecay=2\n"
+    algo += "symseed=0\nsaveeach=0.5"
+    experiment = load(write(tmp_path, text(policy, algo)))
+    assert experiment.policy == PolicyConfig(
+        2, 1, 3, 7, 1000, 0, 100, 30, 2, 1, 4, 5, 0, 3, 2, 2, 0.05, 1, 1, 0.5
+    )
+    assert experiment.algo == OpenAIESConfig(
+        maxmsteps=0.25,
+        stepsize=0.01,
+        samplesize=250,
+        noiseStdDev=0.02,
+        wdecay=2,
+        symseed=0,
+        saveeach=0.5,
+    )
+    assert experiment.path == tmp_path / "own.ini"
+    for part in (experiment.policy, experiment.algo):
+        for key, value in asdict(part).items():
+            assert type(value) is type(getattr(type(part), key)), key
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        "# head\n; head\n[exp]\nEnvironment=CartPole-v1\nALGO=sss\n[Policy]\n[algo]\nPopSize=8\n",
+        text(algo="popsize = 8 # a comment", exp="environment = CartPole-v1 ; c\nalgo = Sss"),
+        "[ALGO] # c\n\tpopsize\t=\t8\t; = c\n [ policy ]\n[EXP]\nalgo:SSS\nenvironment:CartPole-v1",
+        "\ufeff[EXP]\nenvironment = CartPole-v1\nalgo = SSS\n[POLICY]\n[ALGO]\npopsize = 8",
+        text(algo="popsize = 8", exp="environment = CartPole-v1\nalgo = SSS").replace("\n", "\r\n"),
+        text(algo="popsize = 8", exp="environment = CartPole-v1\nalgo = SSS").replace("\n", "\r"),
+        text(algo="popsize = 8 # \xe9", exp="environment = CartPole-v1\nalgo = SSS").encode(
+            "latin-1"
+        ),
+        text(algo="popsize = 8 # \xe9", exp="environment = CartPole-v1\nalgo = SSS").encode(),
+    ],
+    ids=["capitals", "comments", "space", "bom", "crlf", "cr", "latin-1", "utf-8"],
+)
+def test_ways_to_write_a_file(tmp_path, content):
+    experiment = load(write(tmp_path, content))
+    assert experiment == Experiment(Exp("CartPole-v1", "SSS"), PolicyConfig(), SSSConfig(popsize=8))
+
+
+def test_policy_and_algo_need_no_section(tmp_path):
+    experiment = load(write(tmp_path, "[EXP]\nenvironment = CartPole-v1\nalgo = SSS\n"))
+    assert experiment == Experiment(Exp("CartPole-v1", "SSS"), PolicyConfig(), SSSConfig())
+
+
+@pytest.mark.parametrize("key", ["mutrate", "mutation", "Mutation"])
+def test_mutation_is_mutrate(tmp_path, key):
+    path = write(tmp_path, text(algo=f"{key} = 0.1", exp="environment = X\nalgo = SSS"))
+    assert load(path).algo.mutrate == 0.1
+
+
+@pytest.mark.parametrize("name", ["X", "ns/Walker-v2", "my.module:Own-v0", "envSwingupCustom"])
+def test_environment_names(tmp_path, name):
+    assert load(write(tmp_path, text(exp=f"environment = {name}"))).exp.environment == name
+
+
+def test_file_in_the_style_of_the_original_library(tmp_path):
+    path = write(
+        tmp_path,
+        "[EXP]\nenvironment = ErPredprey\nalgo = coevo2\n\n[ALGO]\nsampleSize = 30\n"
+        "saveeach = 50\n\n[POLICY]\nnrobots = 2\nheterogeneous = 1\narchitecture = 3\n\n\n",
+    )
+    experiment = load(path)
+    assert experiment.algo == Coevo2Config(samplesize=30, saveeach=50)
+    assert experiment.policy == PolicyConfig(nrobots=2, heterogeneous=1, architecture=3)
+
+
+REFUSED = {
+    "empty file": ("", "section [EXP] is missing", "add a line [EXP]", "environment = NAME"),
+    "no environment": (text(exp=""), "environment is missing", "environment = NAME", "[EXP]"),
+    "empty value": (text("bias ="), "line 4", "bias has no value", "0 (no) or 1 (yes)"),
+    "only a comment": (text("bias = # c"), "line 4", "bias has no value"),
+    "empty environment": (text(exp="environment ="), "line 2", "environment has no value"),
+    "quoted name": (text(exp="environment = 'X-v0'"), "line 2", "'X-v0'", "without quotes"),
+    "unknown section": ("[EXP]\n[POLCY]\n", "line 2", "[POLCY] is unknown", "mean [POLICY]?"),
+    "strange section": ("[qqqq]\n", "line 1", "[qqqq]", "known are [EXP], [POLICY], [ALGO]"),
+    "open bracket": ("[EXP\n", "line 1", "[EXP is no section", "brackets"),
+    "section twice": (text("[exp]"), "line 4", "[EXP] starts a second time", "line 1", "under"),
+    "before sections": ("\nbias = 1\n", "line 2", "bias = 1", "before the first section", "[EXP]"),
+    "unknown key": (text("nhidens = 5"), "line 4", "nhidens is no hyper", "mean nhiddens?"),
+    "strange key": (text("qqqq = 5"), "line 4", "qqqq", "known are nrobots, ", ", wrange"),
+    "wrong capitals": (text(algo="NoiseStDev = 1"), "line 6", "NoiseStDev", "mean noiseStdDev?"),
+    "wrong section": (text(algo="NHiddens = 5"), "line 6", "belongs in section [POLICY]", "move"),
+    "algo key elsewhere": (text("mutation = 1"), "line 4", "belongs in section [ALGO]", "move"),
+    "algo elsewhere": (text(algo="algo = SSS"), "line 6", "algo belongs in section [EXP]"),
+    "other algorithm": (
+        text(algo="popsize = 5"),
+        "line 6",
+        "popsize is a hyperparameter of CMA-ES, GA, SSS, archive, archivestar, coevo, "
+        "coevo2, maxsolvestar, sNES and xNES, but",
+        "remove the line, or set algo = CMA-ES",
+    ),
+    "key twice": (text("bias = 1\nBIAS = 0"), "line 5", "BIAS is given a second time", "line 4"),
+    "mutation and mutrate": (
+        text(algo="mutrate = 1\nmutation = 1", exp="environment = X\nalgo = SSS"),
+        "line 8: mutation means the same as mutrate in line 7",
+        "keep one",
+    ),
+    "no equals sign": (text("bias 1"), "line 4", "bias 1 lacks an = sign", "key = value"),
+    "no key": (text("= 1"), "line 4", "nothing before its = sign"),
+    "unknown algorithm": (text(exp="environment = X\nalgo = coev2"), "line 3", "mean coevo2?"),
+    "strange algorithm": (
+        text(exp="environment = X\nalgo = qq"),
+        "OpenAI-ES, PGPE, SSS, archive, archivestar, coevo, coevo2, maxsolvestar",
+    ),
+    "word for a number": (
+        text("nhiddens = ten"),
+        "line 4",
+        "nhiddens = ten is not a number",
+        "a whole number from 0 to 10000",
+    ),
+    "fraction": (text("nhiddens = 1.5"), "line 4", "1.5 is not a whole number", "from 0 to 10000"),
+    "comma": (text(algo="stepsize = 0,01"), "line 6", "0,01 is not a number", "point"),
+    "hexadecimal": (text("nhiddens = 0x10"), "not a number"),
+    "underscore": (text("maxsteps = 1_000"), "not a number"),
+    "foreign digits": (text("nhiddens = \u0663"), "not a number"),
+    "yes": (text("bias = yes"), "bias = yes is not a number", "0 (no) or 1 (yes)"),
+    "nan": (text(algo="stepsize = nan"), "line 6", "nan is not a finite number", "above 0"),
+    "infinity": (text(algo="maxmsteps = -Inf"), "line 6", "-Inf is not a finite number"),
+    "overflow": (text(algo="maxmsteps = 1e999"), "line 6", "1e999 is not a finite number"),
+    "long number": (text("maxsteps = " + "9" * 5000), "line 4", "999... is not a finite number"),
+    "negative": (text("nhiddens = -3"), "nhiddens = -3 is out of range", "from 0 to 10000"),
+    "too large": (text("nhiddens = 1e6"), "1e6 is out of range", "from 0 to 10000"),
+    "no bins": (text("nbins = 0"), "nbins = 0 is out of range", "from 1"),
+    "no episodes": (text("episodes = 0"), "episodes = 0 is out of range", "from 1"),
+    "zero that must be above": (text(algo="stepsize = 0"), "out of range", "a number above 0"),
+    "choice": (
+        text("architecture = 5"),
+        "line 4: architecture = 5 is out of range",
+        "0 (feed-forward), 1 (recurrent), 2 (fully recurrent), 3 (LSTM) or 4 (convolutional)",
+    ),
+    "hidden binary": (text("afunction = 4"), "1 (logistic), 2 (tanh), 3 (linear) or 5 (relu)"),
+    "fraction of a generation": (
+        text(algo="saveeach = 0.5", exp="environment = X\nalgo = coevo2"),
+        "line 7",
+        "0.5 is not a whole number",
+    ),
+    "odd population": (
+        text(algo="popsize = 5", exp="environment = X\nalgo = SSS"),
+        "line 7",
+        "popsize = 5 is odd",
+        "popsize = 6",
+    ),
+    "unknown choice": (
+        text(algo="evolving = beste", exp="environment = X\nalgo = coevo2"),
+        "line 7: evolving = beste is unknown: did you mean best?",
+    ),
+    "odd population in coevo2 is one, selection too large is not": (
+        text(algo="popsize = 5", exp="environment = X\nalgo = coevo2"),
+        "line 7",
+        "selsize = 10 is more than popsize = 5",
+    ),
+    "second layer of one": (text("nhiddens2 = 5"), "line 4", "needs nlayers = 2", "nlayers is 1"),
+    "second layer of three": (text("nlayers = 3\nnhiddens2 = 5"), "line 5", "nlayers is 3"),
+    "second layer takes all": (
+        text("nlayers = 2\nnhiddens = 5\nnhiddens2 = 10"),
+        "line 6",
+        "below 2 x nhiddens = 10",
+    ),
+    "too many recurrent neurons": (
+        text("nlayers = 2\narchitecture = 1\nnhiddens = 5001"),
+        "line 6",
+        "one hidden layer",
+        "10002",
+        "lower nhiddens",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_refused_content(tmp_path, case):
+    content, *parts = REFUSED[case]
+    sentence = refused(write(tmp_path, content))
+    for part in parts:
+        assert part in sentence
+
+
+@pytest.mark.parametrize(
+    "data",
+    [b"\x93NUMPY\x01\x00", "[EXP]".encode("utf-16"), b"[EXP]\n#" + b"c" * 1_000_000],
+    ids=["array", "utf-16", "huge"],
+)
+def test_not_a_text_file(tmp_path, data):
+    assert "no experiment file: give an .ini file" in refused(write(tmp_path, data))
+
+
+def test_missing_file_names_those_in_its_folder(tmp_path):
+    write(tmp_path, "", "acrobot.ini")
+    write(tmp_path, "", "pendulum.INI")
+    write(tmp_path, "", "notes.txt")
+    sentence = refused(tmp_path / "zzz.ini")
+    assert "no such file" in sentence and "holds acrobot.ini, pendulum.INI." in sentence
+    assert "did you mean acrobot.ini (" in refused(tmp_path / "acrobt.ini")
+    assert "acrobot.ini" in refused(tmp_path) and "is a folder" in refused(tmp_path)
+
+
+def test_missing_file_in_a_folder_without_experiments(tmp_path, monkeypatch):
+    assert "holds no .ini file" in refused(tmp_path / "own.ini")
+    assert "none does not exist" in refused(tmp_path / "none" / "own.ini")
+    monkeypatch.chdir(tmp_path)
+    assert "this folder holds no .ini file" in refused("own.ini")
+
+
+def test_unreadable_file(tmp_path, monkeypatch):
+    def deny(*args):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(npy, "open", deny, raising=False)
+    assert "cannot be read (Permission denied)" in refused(write(tmp_path, text()))
+
+
+def test_impossible_path():
+    assert "cannot be read" in refused("a\0b.ini")
+
+
+@pytest.mark.parametrize("path", EXPERIMENTS, ids=lambda path: path.stem)
+def test_experiments_of_the_repository(path):
+    experiment = load(path)
+    assert from_dict(json.loads(json.dumps(to_dict(experiment)))) == experiment
+
+
+def test_there_are_experiments():
+    names = (
+        "acrobot bipedalwalker cartpole dpole lunarlander mountaincarcontinuous pendulum swingup"
+    )
+    assert set(names.split()) <= {path.stem for path in EXPERIMENTS}
+
+
+@pytest.mark.parametrize(
+    "data, part",
+    [
+        ([], "nested dict"),
+        ({"exp": 3}, "nested dict"),
+        ({}, "[EXP] is missing"),
+        ({"exp": {"environment": None}, "policy": {}, "algo": {}}, "not a name"),
+        ({"exp": {"environment": "X", "algo": []}, "policy": {}, "algo": {}}, "unknown"),
+        ({"exp": {"environment": "X"}, "policy": {"x": 1}, "algo": {}}, "no hyperparameter"),
+        ({"exp": {"environment": "X"}, "policy": {"bias": True}, "algo": {}}, "not a number"),
+        ({"exp": {"environment": "X"}, "policy": {"bias": 10**400}, "algo": {}}, "not a finite"),
+        ({"exp": {"environment": "X"}, "policy": {"wrange": math.nan}, "algo": {}}, "not a finite"),
+        ({"exp": {"environment": "X"}, "policy": {"nhiddens2": 1}, "algo": {}}, "nlayers = 2"),
+    ],
+)
+def test_refused_dict(data, part):
+    with pytest.raises(BotschoolError, match=r"^run11\.npz: .*") as caught:
+        from_dict(data, "run11.npz")
+    assert part in str(caught.value)
+
+
+def test_describe_lists_every_hyperparameter_with_default_and_help():
+    rows = describe()
+    listed = {(section, name): default for section, name, default, _ in rows}
+    assert (
+        len(listed)
+        == len(rows)
+        == 5 + 23 + 17 + 7 + 7 + 4 + 6 + 6 + 6 + 9 + 13 + 13 + 12 + 8 + 6 + 4 + 6 + 9
+    )
+    for section, defaults in (
+        (
+            "EXP",
+            {"environment": None, "algo": "OpenAI-ES", "robots": "", "wrappers": ""}
+            | {"options": ""},
+        ),
+        ("POLICY", POLICY_DEFAULTS),
+        ("ARENA", ARENA_DEFAULTS),
+        ("ALGO OpenAI-ES", OPENAI_ES_DEFAULTS),
+        ("ALGO SSS", SSS_DEFAULTS),
+        ("ALGO CMA-ES", GAUSSIAN_DEFAULTS | {"diagonal": 0, "active": 1}),
+        ("ALGO xNES", NATURAL_DEFAULTS),
+        ("ALGO sNES", NATURAL_DEFAULTS),
+        *[(f"ALGO {algo}", defaults) for algo, defaults in COMPETITIVE_DEFAULTS.items()],
+    ):
+        assert {
+            name: value for (part, name), value in listed.items() if part == section
+        } == defaults
+    assert all(len(help) > 10 and "\n" not in help for *_, help in rows)
+    helps = {name: help for _, name, _, help in rows}
+    assert helps["winit"].endswith("0 (Xavier), 1 (norm-incoming) or 2 (uniform)")
+
+
+def test_every_default_satisfies_its_own_limits():
+    for algo in config.ALGORITHMS:
+        parts = {"exp": {"environment": "X", "algo": algo}, "policy": {}, "algo": {}}
+        assert from_dict(to_dict(from_dict(parts))) == from_dict(parts)
+
+
+def test_importing_is_light():
+    heavy = {"torch", "pybullet", "matplotlib", "rich"}
+    code = f"import sys, botschool.config; print({heavy} & set(sys.modules))"
+    path = str(Path(config.__file__).parents[1])
+    done = subprocess.run(
+        [sys.executable, "-c", f"import sys; sys.path.insert(0, {path!r}); {code}"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout.strip() == "set()"
+
+
+KEYS = [name for _, name, _, _ in describe()] + ["mutation", "NHIDDENS", "nhidens", "", "x y"]
+VALUES = ["0", "1", "2", "-1", "1e400", "nan", "1.5", "CartPole-v1", "SSS", "coevo2", "", "a b"]
+LINES = st.one_of(
+    st.sampled_from(["[EXP]", "[POLICY]", "[ALGO]", "[exp", "[X]", "# c", "; c", "", "="]),
+    st.builds("{} {} {}".format, st.sampled_from(KEYS), st.sampled_from("=: "), st.text()),
+    st.builds("{} = {}".format, st.sampled_from(KEYS), st.sampled_from(VALUES)),
+    st.text(),
+)
+QUICK = settings(
+    max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+
+
+def loads_or_refuses(path):
+    try:
+        experiment = load(path)
+    except BotschoolError as error:
+        assert str(error).startswith(str(path)) and "\n" not in str(error)
+    else:
+        assert from_dict(to_dict(experiment)) == experiment
+
+
+@QUICK
+@given(st.lists(LINES, max_size=8), st.booleans())
+def test_any_text_loads_or_is_refused(tmp_path, lines, headed):
+    head = ["[EXP]", "environment = CartPole-v1", "[ALGO]", "[POLICY]"] if headed else []
+    content = "\n".join(head + lines).encode("utf-8", "surrogatepass")
+    loads_or_refuses(write(tmp_path, content))
+
+
+@QUICK
+@given(st.binary(max_size=300))
+def test_any_bytes_load_or_are_refused(tmp_path, data):
+    loads_or_refuses(write(tmp_path, data))
+
+
+@QUICK
+@given(st.dictionaries(st.sampled_from(KEYS), st.sampled_from(VALUES), max_size=6))
+def test_any_known_keys_load_or_are_refused(tmp_path, pairs):
+    sections = {"EXP": "environment = CartPole-v1", "POLICY": "", "ALGO": ""}
+    for section, name, _, _ in describe():
+        if name in pairs and name != "environment" and section != "ARENA":
+            sections[section.split()[0]] += f"\n{name} = {pairs.pop(name)}"
+    loads_or_refuses(write(tmp_path, text(sections["POLICY"], sections["ALGO"], sections["EXP"])))
