@@ -157,7 +157,7 @@ def learnt(module, name, environment, robot, seed, episodes, ppo):
     gymnasium.registry.pop(environment, None)
     gymnasium.register(environment, make, max_episode_steps=500)
     watched = watching_ppo() if ppo else contextlib.nullcontext()
-    with alive(), watched as updates, contextlib.suppress(BrokenOff):
+    with watched as updates, alive(), contextlib.suppress(BrokenOff):  # imports take seconds
         answer = getattr(module, name)(seed)
     actions = made[0].actions if made else []
     return [answer, actions, updates.change_of(answer) if ppo else 0.0]

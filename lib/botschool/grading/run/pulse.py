@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import count
 
-STILL = 5.0
+STILL = 8.0
 """Processor seconds without a beat. Code between two of them takes milliseconds."""
 LOOK = STILL / 2
 _beats = count(1)
