@@ -144,7 +144,7 @@ class Student:
 
     def _not_hung(self, name: str) -> None:
         if name in self.hung:
-            raise Wrong("It is not called again, because a call before did not return in time.")
+            raise Wrong("It is not called again: a call before took too long, or all memory.")
 
     def ask(self, request: dict[str, Any]) -> Any:
         """Repeat a request from another Student's trace and return the answer. Raises Wrong."""
@@ -251,6 +251,8 @@ class Student:
                 f"{self.said} stands still: for {STILL:g} s it evaluated nothing, made no step and "
                 f"computed no gradient. Does a loop never end?{where}"
             )
+        if answer.get("error") == "MemoryError":
+            self.hung.add(str(request["name"]))
         if "error" in answer:
             self.raised = {"raised": str(answer["error"]), "text": str(answer.get("text"))}
             raise explained(answer, self.said, self._source)
