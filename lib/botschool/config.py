@@ -199,7 +199,7 @@ def _experiment(sections: dict[str, dict[str, Entry]], path: str | PathLike[str]
     notes: list[str] = []
     exp = _build(Exp, "EXP", sections["EXP"], path, notes)
     exp.environment = own_name(exp.environment)
-    if exp.wrappers and exp.environment in NATIVE:
+    if exp.wrappers and exp.environment in NATIVE and ARENA not in sections:
         notes.append(f"{exp.environment} runs in Python: the native engine takes no wrappers.")
     if sections.get(ENV):
         notes += _take_options(exp, sections[ENV], path)

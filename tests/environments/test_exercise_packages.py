@@ -19,8 +19,11 @@ ROOT = Path(__file__).parents[2]
 NUMBERS = sorted(int(path.name[2:4]) for path in (ROOT / "solutions").glob("ex[0-9][0-9]_*"))
 OWN = {"botschool", "balance_bot", "pip"}
 """Ours, what exercise 10 builds, and what stands in for tomllib in Python 3.10."""
-BROUGHT = {"PIL", "imageio_ffmpeg", "pygame", "nbformat", "nbconvert", "traitlets"}
-"""What matplotlib, imageio[ffmpeg], gymnasium[classic-control] and nbgrader are made of."""
+BROUGHT = {
+    "PIL", "imageio_ffmpeg", "pygame", "nbformat", "nbconvert", "traitlets", "IPython", "pandas",
+}  # fmt: skip
+"""What matplotlib, imageio[ffmpeg], gymnasium[classic-control], nbgrader and notebooks are made of,
+and what a program asks for by name (pandas)."""
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 
 

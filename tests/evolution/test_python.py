@@ -1,6 +1,7 @@
 """`import botschool`: what programs get is what the commands give, bit for bit."""
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -254,11 +255,12 @@ def test_a_strategy_of_ones_own_resumes_and_is_the_commands(algorithm, tmp_path)
     botschool.evolve("CartPole-v1", **given, folder=tmp_path / "parts", resume=True)
     assert same(tmp_path / "whole", tmp_path / "parts") and len(whole.history) > 6
     file = tmp_path / "own.ini"
+    shutil.copy(__file__, tmp_path)
     file.write_text(
         f"[EXP]\nenvironment = CartPole-v1\nalgo = test_python:{algorithm.__name__}\n[POLICY]\n"
         "nhiddens = 3\n[ALGO]\nmaxmsteps = 0.02\noptions = noise=0.3\n"
     )
-    assert call("es", "-f", file, "-o", tmp_path / "command")[0] == 0
+    assert call("es", "-f", file, "-o", tmp_path / "command", cwd=tmp_path)[0] == 0
     assert same(tmp_path / "whole", tmp_path / "command")
 
 

@@ -140,7 +140,7 @@ def test_options_may_have_any_name(tmp_path, command):
 
 def test_an_environment_that_must_draw_is_filmed(tmp_path, command, refused):
     pytest.importorskip("pygame")
-    path = write_experiment(tmp_path, "CartPole-v1", maxmsteps=0.0002)
+    path = write_experiment(tmp_path, "MountainCar-v0", maxmsteps=0.0002)
     around = "wrappers = AddRenderObservation(render_only=True), ResizeObservation(shape=(8, 12))"
     plain = path.read_text()
     path.write_text(plain.replace("algo =", f"{around}\nalgo ="))

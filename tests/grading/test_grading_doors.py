@@ -459,7 +459,9 @@ def test_a_missing_package_is_said_before_a_class_is_graded(course, tmp_path, mo
         lambda: grade_all_command(tmp_path / "class", tmp_path / "o", "3", 1, False),
         lambda: commands.grade_command("3", str(tmp_path / "class" / "anna"), False, False),
     ):
-        with pytest.raises(BotschoolError, match=r"needs torch: .*test-ex3.*botschool\[rl\]"):
+        with pytest.raises(
+            BotschoolError, match=r"needs torch: .*botschool start 3.*botschool\[rl\]"
+        ):
             command()
     assert not (tmp_path / "o").exists()
     monkeypatch.chdir(tmp_path / "class" / "anna" / FOLDER)

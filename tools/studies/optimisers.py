@@ -167,8 +167,9 @@ def rows(kept: dict) -> str:
         "steps each, 40 candidates a generation; without importing and compiling. "
         f"{kept['machine']}; busy with other work, load {kept['load']}. The seconds are "
         "those of all cores together. The examples are not tuned: they show how to call, not which "
-        "library is best. "
-        "`OMP_NUM_THREADS=1 python tools/studies optimisers`)"
+        "library is best.)\n\n<!-- BEGIN NOT RELEASED -->\n"
+        "`OMP_NUM_THREADS=1 python tools/studies optimisers` "
+        "measures it anew.\n<!-- END NOT RELEASED -->"
     )
 
 

@@ -324,8 +324,6 @@ def evolve(
     events = Events(files.events, limit.steps if limit.steps < math.inf else 0)
     logged = 0
     run.report, run.limit = report, limit
-    with suppress(OSError):
-        files.fresh.unlink()  # of the robot that was the best before
     report(run)
 
     def log() -> None:
@@ -344,6 +342,8 @@ def evolve(
         run.saving = time.monotonic() - began
 
     save()
+    with suppress(OSError):
+        files.fresh.unlink()  # of the robot that was the best before
     saved = recorded = time.monotonic()
     try:
         while not limit.reached(run):

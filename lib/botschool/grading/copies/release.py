@@ -39,7 +39,7 @@ START = "exercises/README.md"
 """The students' start page; the copy gets it as README.md, too."""
 _WITHHELD = re.compile(
     r"docs/(reports/)?(instructor|answer|solution|architecture|algorithms|cluster|results\.|evolution|images/learning)"
-    r"|^exercises/ex\d\d_[^/]*/slips\.py$|^lib/(?!botschool/labs/lab\d\d\.).*\.md$|^docs/book/|^tools/(figures|studies)/"
+    r"|^exercises/ex\d\d_[^/]*/slips\.py$|^lib/(?!botschool/labs/lab\d\d\.).*\.md$|^docs/book/|^tools/(figures/|studies/|wheels)"
     r"|(^|/)(__pycache__|\..*_cache|results)/"
     r"|\.(pyc|so|pyd|dylib|dll|ipynb|egg-info)$|(^|/)(?!\.gitignore$)\.[^/]*$",
     re.IGNORECASE,
