@@ -136,7 +136,8 @@ console.log(JSON.stringify(Object.fromEntries(
 def digests_of_the_command(experiment, seed, folder):
     folder.mkdir()
     evolve((Coevolution if experiment.competitive else Run)(experiment, seed), folder)
-    files = [path for path in folder.glob("*S*.*") if not path.name.startswith("checkpoint")]
+    own = ("checkpoint", "fresh")  # that a page does not offer
+    files = [path for path in folder.glob("*S*.*") if not path.name.startswith(own)]
     return {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in files}
 
 
@@ -537,6 +538,7 @@ PAGES = (
         "predprey_archive",
         "predprey_archivestar",
         "predprey_maxsolvestar",
+        "predprey_small",
         "spatialant",
     ),
     *("spatialbalancebot", "spatialhumanoid", "swingup"),

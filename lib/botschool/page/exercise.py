@@ -27,7 +27,8 @@ from botschool.problems.native import NativeProblem
 from botschool.render.replay import drawing, palette
 
 SCRIPTS = (
-    "core.js", "scenes.js", "hands.js", "figures/kit.js", "figures/plot.js", "figures/robot.js",
+    "core.js", "scenes.js", "hands.js", "figures/steps.js", "figures/kit.js", "figures/plot.js",
+    "figures/robot.js",
 )  # fmt: skip
 PAGE = "page.html"
 """The page's name in the folder of its exercise."""
