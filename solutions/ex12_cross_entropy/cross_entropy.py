@@ -269,6 +269,11 @@ def gaussian_loss(
 # each one has a start of its own; with 1, all of an iteration begin alike, and none is among the
 # best just for an easy start.
 #
+# Adam (`torch.optim.Adam`) suits as the optimiser. $\ln \sigma$ is no part of the network: make it
+# a tensor that requires a gradient, begin with 0, and give it to the optimiser beside the network's
+# parameters. `improve` wants a loss of two arguments: wrap `gaussian_loss`. The network's first
+# weights are random, too: `torch.manual_seed` makes them repeat.
+#
 # The second environment is CartPole with a motor that pushes with any force: its action is a number
 # from -1 (10 N to the left) to 1 (10 N to the right). The policy must learn by your losses, from
 # episodes in what `gymnasium.make` gives: when it is graded, the signs of what is observed and done

@@ -319,11 +319,11 @@ def _lead_to_page(number: int, root: Path, console: Console, opens: bool) -> Non
     try:
         page = living_page(number, root)
     except BotschoolError as error:
-        console.print(f"  {'Touch':<11}the text as a page with figures: {error}", markup=False)
+        console.print(f"  {'See':<11}the text as a page with figures: {error}", markup=False)
         return
     if page:
         note = " (opened in your browser)" if opens and open_page(page.resolve()) else ""
-        console.print(f"  {'Touch':<11}{os.path.relpath(page)}{note}", markup=False)
+        console.print(f"  {'See':<11}{os.path.relpath(page)}{note}", markup=False)
 
 
 def reset_command(what: str) -> None:
