@@ -118,7 +118,7 @@ def compare_command(folders: tuple[Path, Path], output: Path | None) -> None:
         print(f"note: these are runs on {' and '.join(sorted(about))}.", file=sys.stderr)
     found = compare(first, second)
     width = max(len(a), len(b), 10)
-    print(f"{'':{width}}  runs  median of the best post-evaluated fitness (95 % interval)")
+    print(f"{'':{width}}  runs  median of the best robots' fitness (95 % interval)")
     for name, values, k in ((a, first, 0), (b, second, 1)):
         median, interval = readable(found.medians[k]), _written(found.intervals[k])
         print(f"{name:{width}}  {len(values):4}  {median} ({interval})")
@@ -154,7 +154,7 @@ def _written(interval: tuple[float, float]) -> str:
 
 
 def read_results(folders: Sequence[Path]) -> dict[str, np.ndarray]:
-    """Return name -> best post-evaluated fitness of each run or training in the folder."""
+    """Return name -> the fitness of the best robot of each run, or agent of each training."""
     found = {}
     for name, folder in named(folders).items():
         if has_trainings(folder):
@@ -166,7 +166,7 @@ def read_results(folders: Sequence[Path]) -> dict[str, np.ndarray]:
 
 
 def plot_boxes(folders: Sequence[Path | str], output: Path | None) -> None:
-    """Draw the best post-evaluated fitness of each folder's runs as a box."""
+    """Draw the fitness of the best robot of each run as a box a folder."""
     if output is not None:
         check_output(output, PICTURE_SUFFIXES)
     paths = [Path(folder) for folder in folders]
@@ -181,7 +181,7 @@ def draw_results(
         axes = figure.add_subplot()
         _draw_boxes(axes, results)
         about = [problem_of(folder) for folder in folders]
-        axes.set_title(common_title(about, "best post-evaluated fitness of each run"))
+        axes.set_title(common_title(about, "best robot of each run"))
 
 
 def _draw_boxes(axes: Axes, results: dict[str, np.ndarray]) -> None:

@@ -50,8 +50,8 @@ def compare(
 ) -> None:
     """Compare the results of two folders: medians, intervals, a test, the size of the effect.
 
-    Each run counts once, by its best post-evaluated fitness. The intervals come from a bootstrap of
-    the runs. The test asks how often chance alone would part the runs as clearly.
+    Each run counts once, by its best robot in fresh episodes. The intervals come from a bootstrap
+    of the runs. The test asks how often chance alone would part the runs as clearly.
     """
     from botschool.analysis.comparison import compare_command
 
