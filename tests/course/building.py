@@ -6,6 +6,7 @@ have sections, too: a name, a line that says what is hostile, and code.
 """
 
 import ast
+import hashlib
 import re
 from dataclasses import dataclass
 from functools import cache
@@ -13,10 +14,12 @@ from pathlib import Path
 
 from botschool.grading.copies.skeleton import skeleton
 from botschool.grading.declare import mistakes
-from botschool.grading.declare.exercise import Exercise, folder_of, load_exercise
+from botschool.grading.declare.exercise import Exercise, Task, folder_of, load_exercise
 from botschool.grading.declare.mistakes import inserted, read_cases
 
 __all__ = ["inserted"]
+QUICK = 20
+"""Seconds of a task, at most, that is tried many times."""
 ROOT = Path(__file__).parents[2]
 HERE = Path(__file__).parent
 NUMBERS = sorted(int(path.name[2:4]) for path in (ROOT / "solutions").glob("ex[0-9][0-9]_*"))
@@ -50,6 +53,20 @@ class Source:
                     found.setdefault(task, []).append(node.name)
         return found
 
+    def reached(self, text: str) -> set[str]:
+        """The tasks whose code in a changed solution differs, or uses what differs."""
+        ours, theirs = parts(self.solution), parts(text)
+        names = {name for name in {*ours, *theirs} if ours.get(name) != theirs.get(name)}
+        found, using = set[str](), {*names}
+        while using:
+            found |= using
+            said = {each for name in using for each in name.split(".")}
+            using = {name for name, part in theirs.items() if said & words(part)} - found
+        tasks = set()
+        for name in found & {*ours}:
+            tasks |= {*re.findall(r"### BEGIN SOLUTION task (\d+\.\d+)", ours[name])}
+        return tasks
+
     @property
     def used_by_others(self) -> set[str]:
         """Functions that another function calls."""
@@ -59,6 +76,25 @@ class Source:
                 names = {each.id for each in ast.walk(node) if isinstance(each, ast.Name)}
                 used |= names - {node.name}
         return used
+
+
+def parts(text: str) -> dict[str, str]:
+    """name -> text of a file's functions, classes' methods and other statements at top level."""
+    found, lines = {}, text.splitlines()
+    for node in ast.parse(text).body:
+        inside = node.body if isinstance(node, ast.ClassDef) else [node]
+        for each in inside:
+            names = [getattr(each, "name", ast.unparse(each).partition(" =")[0])]
+            if isinstance(node, ast.ClassDef):
+                names.insert(0, node.name)
+            found[".".join(names)] = "\n".join(lines[each.lineno - 1 : each.end_lineno + 1])
+    return found
+
+
+@cache
+def words(text: str) -> frozenset[str]:
+    """The names in a piece of code."""
+    return frozenset(re.findall(r"\w+", text))
 
 
 @cache
@@ -89,6 +125,23 @@ class Case(mistakes.Case):
     def submission(self) -> str:
         """The text of the submission."""
         return self.of(source(self.number).solution)
+
+    def tasks(self, exercise: Exercise) -> list[Task] | None:
+        """The tasks that a wrong solution can reach; None for all, which each tenth case gets.
+
+        Long ones only if they lose points.
+        """
+        try:
+            reached = source(self.number).reached(self.submission)
+        except SyntaxError:
+            return None
+        if hashlib.sha256(str(self).encode()).digest()[0] % 10 == 0:
+            return None
+        return [
+            task
+            for task in exercise.tasks
+            if task.id in self.loses or (task.id in reached and task.seconds <= QUICK)
+        ]
 
 
 def sections(path: Path) -> list[tuple[str, str]]:

@@ -4,7 +4,7 @@
 ok or BAD (it loses other tasks than its header says), then what is told: "this" (its own sentence),
 "CASE" (another case's), "slip" (an automatic one) or "-"; words of the first message; seconds.
 `--new FILE` grades the cases of a file that the exercise does not know yet: those without a name
-are worth keeping.
+are worth keeping. A known mistake is graded in the tasks that it can reach.
 """
 
 from __future__ import annotations
@@ -60,7 +60,8 @@ def main() -> None:
                 continue
             file = building.write(Path(folder) / str(i), given.number, text)
             start = time.monotonic()
-            result = grade(exercise, file, server=server)
+            tasks = case.tasks(exercise) if case is not None and loses else None
+            result = grade(exercise, file, tasks=tasks, server=server)
             lost = tuple(task.id for task in result.tasks if task.points < task.max_points)
             first = next((task.message for task in result.tasks if task.id in lost), "")
             how = told(result, case) if case is not None and loses else ""

@@ -130,9 +130,10 @@ def test_there_are_mutants(number):
 @pytest.mark.course
 @pytest.mark.parametrize("mutant", MUTANTS, ids=str)
 def test_mutant_loses_what_it_names(grade, mutant, tmp_path):
-    """And no other task; a message that is to name the mistake does."""
+    """And no other task that it can reach; a message that is to name the mistake does."""
     file = building.write(tmp_path, mutant.number, mutant.submission)
-    result = grade(building.exercise(mutant.number), file)
+    exercise = building.exercise(mutant.number)
+    result = grade(exercise, file, mutant.tasks(exercise))
     lost = [task for task in result.tasks if task.points < task.max_points]
     messages = {task.id: task.message for task in result.tasks if task.message}
     assert tuple(task.id for task in lost) == mutant.loses, messages

@@ -17,8 +17,6 @@ from direct import DirectOurs, problem
 
 SAMPLE = 12
 """Slips of an exercise in the sample."""
-QUICK = 20
-"""Seconds of a task, at most, whose checks are tried."""
 
 
 def slips(number):
@@ -32,7 +30,7 @@ def slips(number):
     return [
         (task, slip)
         for task in loaded.tasks
-        if task.seconds <= QUICK
+        if task.seconds <= building.QUICK
         for slip in variations(loaded.known.solution, task.id)
     ]
 
