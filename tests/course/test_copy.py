@@ -67,11 +67,9 @@ def test_finished_file_run_by_itself_makes_its_pictures(copy, number, capfd):
     assert made and all(path.is_relative_to(copy / "results" / f"ex{number:02d}") for path in made)
     images = [path for path in made if path.suffix in (".png", ".mp4", ".html")]
     assert images and all(path.stat().st_size > 1000 for path in images)
-    moving = [path for path in images if path.suffix != ".png"]
-    assert moving or number == 11  # the only one without a robot
     exercise = load_exercise(number, copy)
     shown = captioned(exercise, [path for path in made if path.parent.name[:2] == "ex"])
-    assert {each.says for each in shown} <= set(exercise.captions.values())
+    assert shown and {each.says for each in shown} <= set(exercise.captions.values())
     outside = set(os.listdir(copy)) - set(os.listdir(building.ROOT)) - {".release.json", "results"}
     assert not outside
 

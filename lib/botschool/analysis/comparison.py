@@ -12,15 +12,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from botschool.analysis.plots import (
-    FITNESS,
-    PICTURE_SUFFIXES,
-    common_title,
-    cycle,
-    named,
-    new_figure,
-)
-from botschool.analysis.runs import problem_of, read_fitness, warn
+from botschool.analysis.figure import PICTURE_SUFFIXES, cycle, new_figure
+from botschool.analysis.plots import FITNESS
+from botschool.analysis.runs import common_title, named, problem_of, read_fitness, warn
 from botschool.analysis.trainings import has_trainings
 from botschool.errors import BotschoolError
 from botschool.output import check_output

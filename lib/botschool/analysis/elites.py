@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from botschool.analysis.plots import new_figure
+from botschool.analysis.figure import new_figure
 from botschool.config import Experiment, from_dict
 from botschool.errors import BotschoolError
 from botschool.evolution.algorithms.mapelites import features, limits

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from botschool import problems
-from botschool.analysis.plots import PICTURE_SUFFIXES, new_figure
+from botschool.analysis.figure import PICTURE_SUFFIXES, new_figure
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.evolution.evaluate import means

@@ -13,7 +13,7 @@ import numpy as np
 
 from botschool import problems
 from botschool.analysis.coevolution import only_seed
-from botschool.analysis.plots import PICTURE_SUFFIXES, new_figure
+from botschool.analysis.figure import PICTURE_SUFFIXES, new_figure
 from botschool.analysis.populations import Populations
 from botschool.analysis.runs import find_runs, told_by
 from botschool.config import Experiment, from_dict

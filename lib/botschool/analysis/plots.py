@@ -3,23 +3,24 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from io import BytesIO
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from botschool.analysis.figure import COLOURS, PICTURE_SUFFIXES, NoDisplay, cycle, new_figure
 from botschool.analysis.runs import (
     BEST_POST,
     GENERATION_AVERAGE,
     GENERATION_BEST,
     STEPS,
     Warn,
+    common_title,
     find_runs,
+    named,
     problem_of,
     read_curves,
     read_fitness,
@@ -34,29 +35,20 @@ from botschool.analysis.trainings import (
     has_trainings,
     read_trainings,
 )
-from botschool.errors import BotschoolError
 from botschool.evolution import fresh
-from botschool.output import cannot_write, check_output, written_whole
+from botschool.output import check_output
 from botschool.terminal import readable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-PICTURE_SUFFIXES = (".png", ".svg", ".pdf", ".jpg")
 MAX_POINTS = 1000
 """Largest number of points drawn of a curve; longer curves are thinned."""
-
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
-"""Okabe and Ito's palette: colour-blind readers can distinguish its colours, too."""
 
 FITNESS = "fitness (mean return of an episode)"
 RETURN = "mean return of an episode"
 ROBOTS = "best robots in fresh episodes"
-
-
-class NoDisplay(BotschoolError):
-    """Raised if there is no screen to draw on."""
 
 
 class Curves(dict[int, np.ndarray]):
@@ -207,90 +199,6 @@ def _read_targets(
         {name: trained[group] for name, group in names.items() if group in trained},
         {name: about for name, folder in names.items() if (about := problem_of(folder))},
     )
-
-
-def named(folders: Sequence[Path]) -> dict[str, Path]:
-    """Return the shortest names that distinguish the folders: "acrobot", or "old/acrobot"."""
-    if not folders:
-        raise BotschoolError("nothing to show: name at least one folder of runs.")
-    resolved = {folder.resolve(): folder for folder in folders}
-    for parts in range(1, max(len(folder.parts) for folder in resolved) + 1):
-        names = {"/".join(full.parts[-parts:]): folder for full, folder in resolved.items()}
-        if len(names) == len(resolved):
-            break
-    return names
-
-
-def common_title(problems: Collection[str], title: str) -> str:
-    """Return the title after what all folders have in common: problem and algorithm, or one."""
-    for about in ({*problems}, {each.partition(",")[0] for each in problems}):
-        if len(about) == 1 and all(about):
-            return f"{about.pop()}: {title}"
-    return title
-
-
-def cycle() -> Iterator[str]:
-    while True:
-        yield from COLOURS
-
-
-def _layout(height: float, width: float) -> dict[str, Any]:
-    from matplotlib.layout_engine import ConstrainedLayoutEngine
-
-    engine = ConstrainedLayoutEngine(w_pad=0.12, h_pad=0.12)
-    return {"figsize": (width, height), "dpi": 100, "layout": engine}
-
-
-@contextmanager
-def new_figure(
-    output: Path | str | None, height: float = 5.0, width: float = 8.0, shown: bool = True
-) -> Iterator[Figure]:
-    """Yield a figure of `width` by `height` inches; when the block ends, write it to `output`, or
-    show it if there is none (not with shown=False).
-    """
-    if output is None and shown:
-        with _shown_figure(height, width) as figure:
-            yield figure
-        return
-    from matplotlib.figure import Figure
-
-    class Picture(Figure):
-        def _repr_png_(self) -> bytes:  # notebooks show it
-            self.savefig(content := BytesIO(), format="png")
-            return content.getvalue()
-
-    if output is not None:
-        output = check_output(output, PICTURE_SUFFIXES)
-    figure = Picture(**_layout(height, width))
-    yield figure
-    if output is None:
-        return
-    with written_whole(output) as temporary:
-        try:
-            figure.savefig(temporary, format=output.suffix[1:].lower())
-        except OSError as error:
-            raise cannot_write(output, error.strerror or str(error)) from error
-
-
-@contextmanager
-def _shown_figure(height: float, width: float) -> Iterator[Figure]:
-    import matplotlib
-    from matplotlib import pyplot
-
-    headless = NoDisplay(
-        "there is no display to show the picture on: write it to a file with `-o FILE.png`."
-    )
-    try:
-        figure = pyplot.figure(**_layout(height, width))
-    except Exception as error:  # each window toolkit raises its own kind
-        raise headless from error
-    try:
-        if matplotlib.get_backend().lower() in ("agg", "cairo", "pdf", "pgf", "ps", "svg"):
-            raise headless
-        yield figure
-        pyplot.show()
-    finally:
-        pyplot.close(figure)
 
 
 def _draw_run(axes: Axes, stat: np.ndarray, labels: dict[int, str]) -> None:

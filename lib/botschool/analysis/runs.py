@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -275,3 +275,23 @@ def seed_of(stat: Path | str) -> int | None:
     """Return the seed in a stat file's name, or None if the name has none."""
     match = _RUN_FILE.fullmatch(Path(stat).name)
     return int(match["seed"]) if match and match["kind"] == "stat" else None
+
+
+def named(folders: Sequence[Path]) -> dict[str, Path]:
+    """Return the shortest names that distinguish the folders: "acrobot", or "old/acrobot"."""
+    if not folders:
+        raise BotschoolError("nothing to show: name at least one folder of runs.")
+    resolved = {folder.resolve(): folder for folder in folders}
+    for parts in range(1, max(len(folder.parts) for folder in resolved) + 1):
+        names = {"/".join(full.parts[-parts:]): folder for full, folder in resolved.items()}
+        if len(names) == len(resolved):
+            break
+    return names
+
+
+def common_title(problems: Collection[str], title: str) -> str:
+    """Return the title after what all folders have in common: problem and algorithm, or one."""
+    for about in ({*problems}, {each.partition(",")[0] for each in problems}):
+        if len(about) == 1 and all(about):
+            return f"{about.pop()}: {title}"
+    return title

@@ -16,7 +16,7 @@ from rich import box
 from rich.console import Console
 from rich.table import Table as Grid
 
-from botschool.analysis.plots import PICTURE_SUFFIXES, new_figure
+from botschool.analysis.figure import PICTURE_SUFFIXES, new_figure
 from botschool.analysis.tournament import (
     ROLES,
     Estimate,

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from botschool.analysis.plots import COLOURS, new_figure
+from botschool.analysis.figure import COLOURS, new_figure
 from botschool.config import Experiment, from_dict, to_dict
 from botschool.errors import BotschoolError
 from botschool.evolution.evaluate import mean

@@ -231,7 +231,8 @@ class Runs(Sequence[Run]):
         Return a matplotlib Figure, which notebooks show; with a path (.png, .svg, .pdf) write it
         and return the path. Raises BotschoolError.
         """
-        from botschool.analysis.plots import Curves, draw_stat, new_figure
+        from botschool.analysis.figure import new_figure
+        from botschool.analysis.plots import Curves, draw_stat
 
         curves = Curves(
             {run.seed: np.stack([run.history[n].astype(float) for n in HISTORY.names[1:]], axis=1)
