@@ -19,6 +19,10 @@ SECONDS = 3
 """Processor seconds for all checks of a task; a slip that takes longer is caught."""
 
 
+SHORT = 0.02
+"""Seconds that each answer of our solution is said to take."""
+
+
 class Slow(BaseException):
     """A slip loops without end."""
 
@@ -28,6 +32,7 @@ class Direct:
 
     seconds_left = 99.0
     said = pasted = changed = ""
+    hung: frozenset[str] = frozenset()
 
     def __init__(self, text):
         self._text = text
@@ -77,7 +82,7 @@ class DirectOurs:
                 value = ask(what, *arguments)
             except Wrong as error:
                 raised = str(error)
-            self._kept[key] = Answer({}, value, raised, 0.0)
+            self._kept[key] = Answer({}, value, raised, SHORT)
         return self._kept[key]
 
 

@@ -18,7 +18,7 @@ import tempfile
 import threading
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -50,6 +50,8 @@ WALL_FACTOR = 5
 """A grader's process may take this many times the limits of its tasks, plus 5 seconds for each task
 and SPARE_SECONDS, in the time that passes, with other programs running.
 """
+RECORDED = ("id", "title", "points", "max_points", "message", "printed", "graded")
+"""What is kept of each task's result."""
 MACHINE_FAULT = 75
 """Exit code of a grader's process, as EX_TEMPFAIL of sysexits.h."""
 
@@ -265,11 +267,10 @@ def _digest(content: bytes) -> bytes:
 
 def to_record(result: Result) -> dict[str, Any]:
     """Return a result as plain data, without repeated pictures."""
-    tasks = [asdict(task) for task in result.tasks]
-    pictures = {}
-    for task in tasks:
-        del task["missing"]
-        for name, content in task.pop("pictures"):
+    tasks = [{name: getattr(task, name) for name in RECORDED} for task in result.tasks]
+    pictures: dict[bytes, str] = {}
+    for task in result.tasks:
+        for name, content in task.pictures:
             pictures.setdefault(content, name)
     return {
         "exercise": result.exercise,
