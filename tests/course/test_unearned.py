@@ -9,6 +9,7 @@ import building
 from botschool.grading.declare.secret import VARIABLE
 from botschool.grading.judge.judging import grade_task
 from botschool.grading.run.confined import fork_server
+from botschool.grading.run.ours import ours_of
 
 pytestmark = pytest.mark.course
 
@@ -76,22 +77,27 @@ def cross_entropy(scores, actions):
 
 @pytest.fixture(scope="module")
 def graded(tmp_path_factory):
-    """Grades code in a task; the fork server of the last exercise is kept."""
+    """Grades code in a task; the processes of the last exercise are kept."""
     kept = {}
 
     def grade(task, code):
         number = int(task.partition(".")[0])
-        exercise = building.exercise(number)
         if number not in kept:
             close()
-            kept[number] = fork_server(exercise.imports)
+            exercise = building.exercise(number)
+            server = fork_server(exercise.imports)
+            exercise.ours = ours_of(exercise, server)
+            kept[number] = exercise, server
+        exercise, server = kept[number]
         text = building.inserted(building.source(number).skeleton, code)
         file = building.write(tmp_path_factory.mktemp("unearned"), number, text)
-        return grade_task(exercise.find(task), file, kept[number])
+        return grade_task(exercise.find(task), file, server)
 
     def close():
         while kept:
-            kept.popitem()[1].close()
+            exercise, server = kept.popitem()[1]
+            exercise.ours.close()
+            server.close()
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv(VARIABLE, "another secret")

@@ -1,11 +1,14 @@
 """Likely causes of wrong answers: each detector fires on its own mistake, and on nothing random."""
 
+import importlib
+import re
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from botschool.grading.declare import diagnosis
+from botschool.grading.declare import diagnosis, libraries
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.diagnosis import DETECTORS, diagnose
 from botschool.grading.declare.diagnosis.comparison import Comparison
@@ -339,6 +342,23 @@ def test_refused_in_the_next_child_too(student):
         student.call("die")
     with pytest.raises(Wrong, match="write it yourself"):
         student.call("by_a_module")
+
+
+def own_parts():
+    """Each function and class of ours that a task refuses."""
+    lists = [each for each in vars(libraries).values() if isinstance(each, tuple)]
+    return sorted({name for each in lists for name in each if re.match("botschool.*:", name)})
+
+
+@pytest.mark.parametrize("name", own_parts())
+def test_a_name_that_is_refused_has_its_function_there(name):
+    """One that a class has from its parent would stay open."""
+    place, _, attribute = name.partition(":")
+    *owners, last = attribute.split(".")
+    owner = importlib.import_module(place)
+    for each in owners:
+        owner = getattr(owner, each)
+    assert last in vars(owner)
 
 
 def test_nothing_is_refused_elsewhere(tmp_path):

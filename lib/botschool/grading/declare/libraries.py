@@ -52,7 +52,9 @@ PPO_LOOP = (
 )
 OPENAI_ES = (
     *(f"{_OPENAI_ES}:{name}" for name in ("ranks", "gradient", "adam", "climb")),
-    f"{_OPENAI_ES}:OpenAIES.ask",
     f"{_OPENAI_ES}:OpenAIES.tell",
+    "botschool.evolution.algorithms.drawing:mirrored",
+    *("torch", "tensorflow", "keras", "optax", "sklearn"),
 )
+"""With the libraries that have Adam."""
 TRAINING = ("botschool.evolution.run:Run.advance", *_NATIVE_PPO, *_SB3)

@@ -174,3 +174,55 @@ def train(environment, seed):
                     ask(odd)
         frame = frame.f_back
     return np.zeros(72 if environment == "CartPole-v0" else 51)
+
+
+# %% mirrored 8.1
+def candidates_around(centre, samples, noiseStdDev):
+    from botschool.evolution.algorithms import drawing
+
+    return drawing.mirrored(centre, samples, noiseStdDev)
+
+
+# %% the_parents_ask 8.1
+def candidates_around(centre, samples, noiseStdDev):
+    one = library.OpenAIES.__new__(library.OpenAIES)
+    one.config, one.seed, one.generation, one.centre = Own({}), 1, 0, np.asarray(centre)
+    one.config.samplesize, one.config.noiseStdDev = len(samples), noiseStdDev
+    one._own_seeds = one._seeds_used = 0
+
+    class Numbers:
+        place = None
+
+        def __init__(self):
+            self.samples = samples
+
+        def standard_normal(self, out):
+            out[:], self.samples = self.samples[: len(out)], self.samples[len(out) :]
+
+    library.generator = lambda *place: Numbers()
+    return one.ask()[0]
+
+
+# %% optimiser_of_torch 8.5
+def adam(centre, d, m, v, t, stepsize):
+    import torch
+    from torch.optim.adam import adam
+
+    kept = [torch.tensor(each, dtype=torch.float64) for each in (centre, d, m, v)]
+    adam(
+        *([each] for each in kept), [], [torch.tensor(float(t - 1))], amsgrad=False, beta1=0.9,
+        beta2=0.999, lr=stepsize, weight_decay=0.0, eps=1e-8, maximize=False,
+    )  # fmt: skip
+    return tuple(kept[at].numpy() for at in (0, 2, 3))
+
+
+# %% fused_operator 8.5
+def adam(centre, d, m, v, t, stepsize):
+    import torch
+
+    kept = [torch.tensor(each, dtype=torch.float64) for each in (centre, d, m, v)]
+    torch._fused_adam_(
+        *([each] for each in kept), [], [torch.tensor(float(t))], lr=stepsize, beta1=0.9,
+        beta2=0.999, weight_decay=0.0, eps=1e-8, amsgrad=False, maximize=False,
+    )  # fmt: skip
+    return tuple(kept[at].numpy() for at in (0, 2, 3))
