@@ -1,6 +1,7 @@
 """Everyday slips and machines: a leftover line costs what depends on it."""
 
 import json
+import re
 import subprocess
 import sys
 
@@ -42,6 +43,7 @@ def after_imports(line):
         "from nowhere import (\n    first,\n    second as third)",
         "from numpy import no_such_name; import nowhere",
         "from helper_that_ends import *",
+        "from nowhere import A\n\ndef other(a: A[int] | None) -> list[A]: ...",
     ],
 )
 def test_an_import_that_fails_costs_what_uses_it(course, tmp_path, line):
@@ -67,6 +69,13 @@ def test_a_task_that_uses_a_failed_import_names_it(course, tmp_path):
         ("float = 0.5", "float"),
         ("dict: object = {}", "dict"),
         ("for list in range(3):\n    pass", "list"),
+        ("for number, list in enumerate('ab'):\n    pass", "list"),
+        ("low, float = 1, 2", "float"),
+        ("low = float = 0", "float"),
+        ("if True:\n    float = 3", "float"),
+        ("(float := 4)", "float"),
+        ("float = 0\nfor x in [1, 2]:\n    if x > float:\n        float = x", "float"),
+        ("float = float(3)\nfloat += 1\nassert float == 4", "float"),
     ],
 )
 def test_a_name_of_python_that_is_given_another_value_is_said_and_undone(
@@ -77,11 +86,45 @@ def test_a_name_of_python_that_is_given_another_value_is_said_and_undone(
     assert f"Python's name {name}" in result.banner and f"{FILE}:4" in result.banner
 
 
+def test_a_file_whose_import_fails_may_begin_with_the_future(course, tmp_path):
+    text = after_imports("import nowhere")
+    assert (
+        graded(course, tmp_path, f'"""Mine."""\nfrom __future__ import annotations\n{text}').points
+        == 100
+    )
+
+
 def test_in_a_notebook_too(course, tmp_path):
     file = tmp_path / "tiny.ipynb"
     file.write_bytes(notebook("float = 2.5\n", SOLUTION))
     result = grade(load_exercise(3, course), file)
     assert result.points == 100 and "line 1 of the cell 'float = 2.5'" in result.banner
+
+
+@pytest.mark.parametrize(
+    "use", ["dtype=float", "*[*map(float, [])]", "**{'dtype': float(0) or None}"]
+)
+def test_a_name_that_functions_hand_on_is_theirs_too(course, tmp_path, use):
+    text = after_imports("float = 0.5").replace(
+        "np.asarray(numbers)", f"np.asarray(numbers, {use})"
+    )
+    assert graded(course, tmp_path, text).points == 100
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "from functools import partial; print = partial(print, flush=True)",
+        "round = np.vectorize(round)",
+        "min, max = np.min, np.max",
+        "def twice(f):\n    return lambda *x: f(*x)\n\nsum = twice(np.sum)",
+    ],
+)
+def test_functions_that_replace_those_of_python_stay(course, tmp_path, line):
+    name = re.findall(r"(\w+)(?:, max)? =", line)[-1]
+    text = after_imports(line).replace("    numbers_of", f"    {name}([1.0])\n    numbers_of", 1)
+    result = graded(course, tmp_path, text)
+    assert result.points == 100 and not result.banner
 
 
 @pytest.mark.parametrize("line", ["sum = np.sum", "id = 3", "float = lambda x: x", "input = [1]"])
@@ -101,6 +144,34 @@ def test_a_function_in_a_cell_without_code_is_found(course, tmp_path, kind, word
     file = tmp_path / "tiny.ipynb"
     file.write_text(json.dumps(document))
     message = grade(load_exercise(3, course), file).tasks[0].message
+    assert f"double cannot be read: it stands in a {word} cell: make it a code cell" in message
+
+
+@pytest.mark.parametrize("kind, word", [("markdown", "Markdown"), ("raw", "raw")])
+@pytest.mark.parametrize("lost", ["np", "WIDE"])
+def test_an_import_or_a_constant_in_a_cell_without_code_is_found(
+    course, tmp_path, kind, word, lost
+):
+    cells = ["import numpy as np", "WIDE = 2", SOLUTION.replace("import numpy as np", "")]
+    document = json.loads(notebook(*(each.replace("2 *", "WIDE *") for each in cells)))
+    at = next(
+        c
+        for c in document["cells"]
+        if "".join(c["source"]).startswith(("import", "WIDE")) and lost in "".join(c["source"])
+    )
+    at["cell_type"] = kind
+    file = tmp_path / "tiny.ipynb"
+    file.write_text(json.dumps(document).replace(": np.ndarray", ""))
+    message = grade(load_exercise(3, course), file).tasks[0].message
+    assert f"{lost} cannot be read: it stands in a {word} cell" in message
+
+
+@pytest.mark.parametrize("kind, word", [("markdown", "Markdown"), ("raw", "raw")])
+def test_a_cell_without_code_is_found_in_a_script_too(course, tmp_path, kind, word):
+    head, code = SOLUTION.split("def double", 1)
+    commented = f"def double{code}".split("def total")[0].replace("\n", "\n# ")
+    text = f"{head}\n# %% [{kind}]\n# {commented}\n\n# %%\ndef total{code.split('def total')[1]}"
+    message = graded(course, tmp_path, text).tasks[0].message
     assert f"double cannot be read: it stands in a {word} cell: make it a code cell" in message
 
 
@@ -125,10 +196,17 @@ def test_a_file_that_may_not_be_read_is_no_process(course, tmp_path):
     assert "processes" not in graded(course, tmp_path, text).tasks[0].message
 
 
-def test_a_film_at_the_top_needs_no_installation(course, tmp_path):
+@pytest.mark.parametrize(
+    "line",
+    [
+        "from botschool.course import film; film('a.mp4', 'CartPole-v0', np.zeros(402))",
+        "raise RuntimeError('No ffmpeg exe could be found. Install ffmpeg on your system')",
+        "raise ValueError('unknown file extension: .mp4')",
+    ],
+)
+def test_a_film_at_the_top_needs_no_installation(course, tmp_path, line):
     from botschool.grading.run.failures import NO_FILMS
 
-    line = "from botschool.course import film; film('a.mp4', 'CartPole-v0', np.zeros(402))"
     banner = graded(course, tmp_path, after_imports(line)).banner
     assert NO_FILMS in banner and "install" not in banner
 

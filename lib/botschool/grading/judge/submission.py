@@ -20,7 +20,7 @@ from botschool.grading.judge.known import TOLD, VARIED
 from botschool.grading.run.cells import Script, Unreadable, gives_builtins, scripts
 from botschool.grading.run.confined import content_digest, fork_server, submission_files
 from botschool.grading.run.failures import Origin, marked
-from botschool.grading.run.notebooks import code_cells, other_cells
+from botschool.grading.run.notebooks import code_cells, names_in_other_cells
 from botschool.grading.run.ours import ours_of
 from botschool.grading.run.student import Student
 from botschool.sandbox import ForkServer
@@ -31,7 +31,6 @@ LOADING_SECONDS = 10
 """Processor seconds of all code in a file or a notebook outside functions."""
 _CELL = re.compile(r"^(?=# %%)", re.MULTILINE)
 _DEFINITION = re.compile(r"^(async def|def|class)\b", re.MULTILINE)
-_NAME = re.compile(r"^[ \t]*(?:async[ \t]+def|def|class)[ \t]+(\w+)", re.MULTILINE)
 _WORDS = ("task", "does", "solution", "its"), ("tasks", "do", "solutions", "their")
 _NOT_GRADED = "Not graded: mend the file first, as said above."
 SYNTAX, EVERYTHING = "BOTSCHOOL_SYNTAX_ERROR", "everything"
@@ -254,8 +253,8 @@ class Submission:
             if self._sources is not None or everything.undone:
                 self._write(everything)
                 self.banner = "\n".join(map(self._undone, everything.undone))
-        if self._given.suffix == ".ipynb":
-            self._find_other_cells()
+        with suppress(OSError):
+            self._lost |= names_in_other_cells(self._given, self._text())
         file = self._file if self._script else self._given
         place = self._place if self._script else None
         trouble = tried_twice(partial(_trouble, file, self._server, Origin(place)), self._alone)
@@ -282,18 +281,12 @@ class Submission:
         if lost := [name for *_, names in defined.left_out for name in names]:
             self.banner += f"\nLeft out: {', '.join(lost)}."
 
-    def _find_other_cells(self) -> None:
-        """Keep the names of functions that stand in cells without code."""
-        for kind, text in other_cells(self._given):
-            where = f"it stands in a {kind} cell: make it a code cell again (in Jupyter: Esc, Y)"
-            self._lost |= dict.fromkeys(_NAME.findall(text), where)
-
     def _undone(self, place: list) -> str:
         """Return some lines on a name of Python that has been given another value."""
         number, line, name = place
         return (
             f"You give Python's name {name} another value, but your functions need Python's own.\n"
-            f"  {self._at(number, line)}: choose another name. Here, this line is left out."
+            f"  {self._at(number, line)}: choose another name."
         )
 
     def _not_python(

@@ -192,7 +192,7 @@ def watch(
             except Saved:
                 continue
             except (BotschoolError, OSError):
-                if found.file.exists():
+                if found.file.is_file():
                     raise
                 wait(POLL_SECONDS)
                 continue

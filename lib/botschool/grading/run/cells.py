@@ -15,6 +15,7 @@ import subprocess
 import symtable
 import sys
 from dataclasses import dataclass, field
+from keyword import iskeyword
 
 PARSE_SECONDS = 30
 MAX_CODE = 2**20
@@ -31,10 +32,19 @@ _TEST = re.compile(
 )
 _MAGIC = re.compile(r"\s*[%!?]|.*\?\s*$|[\s\w,]+=\s*[%!]")
 _PYTHON_CELL = re.compile(r"%%(time|timeit|capture|prun)\b")
-_BUILTINS = {name for name in dir(builtins) if not name.startswith("_")}
+_BUILTINS = {name for name in dir(builtins) if not iskeyword(name) and name[0] != "_"}
+_NAMES = rf"(?:{'|'.join(sorted(_BUILTINS))})\b"
 _GIVES_BUILTIN = re.compile(
-    rf"^[ \t]*(?:for[ \t]+)?(?:{'|'.join(sorted(_BUILTINS))})\b", re.MULTILINE
+    rf"^[ \t]*\(?(?:for +)?{_NAMES}(?! *[(\[.])"
+    rf"|(?<![:|>] )\b{_NAMES} *(?::?=(?!=)|in\b)|\bas +{_NAMES}",
+    re.MULTILINE,
 )
+_NONE, _FIRST, _SECOND = slice(0), slice(1), slice(1, 2)
+_TAKE_FUNCTIONS = {
+    "isinstance": _SECOND, "issubclass": _SECOND, "map": _FIRST, "filter": _FIRST, "astype": _FIRST
+}  # fmt: skip
+"""Functions and methods -> which of their arguments is a function or a type."""
+_DEFINITIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
 _IMPORT = """
 try:
     {text}
@@ -65,8 +75,8 @@ class Script:
     """For each statement that is not Python: number of the cell, line in the cell, column, what
     Python says, and names of the functions and classes in it."""
     undone: list[list] = field(default_factory=list)
-    """Number of the cell, line in the cell, and name: each assignment to a name of Python that is
-    left out, since functions use the name as Python's."""
+    """Number of the cell, line in the cell, and name: each name of Python that gets another value,
+    which gets another name here, since functions use the name as Python's."""
 
     def add(self, number: int, text: str) -> None:
         lines = [*text.split("\n"), ""]
@@ -101,13 +111,11 @@ def gives_builtins(text: str) -> bool:
 
 
 def whole(sources: list[str]) -> Script:
-    """Return all code of the cells, in order, but for values given to names of Python."""
+    """Return all code of the cells, in order; values given to names of Python get other names."""
     script, cells = _read(sources)
     broken = {number for number, *_ in script.left_out}
     for number, source in enumerate(sources, 1):
-        text, body = (plain_python(source), []) if number in broken else cells[number]
-        lines = [line for cell, line, _ in script.undone if cell == number]
-        script.add(number, _replaced(text, [(n, "pass") for n in body if n.lineno in lines]))
+        script.add(number, plain_python(source) if number in broken else cells[number][0])
     script.left_out.clear()
     return script
 
@@ -120,12 +128,9 @@ def definitions(sources: list[str]) -> Script:
     """
     script, cells = _read(sources)
     kept = _kept([node for _, body in cells.values() for node in body])
+    script.text, script.places = "from __future__ import annotations\n", [[1, 1]]
     for number, (text, body) in cells.items():
-        undone = [line for cell, line, _ in script.undone if cell == number]
-        changes = [
-            (node, _guarded(node) if id(node) in kept and node.lineno not in undone else "pass")
-            for node in body
-        ]
+        changes = [(node, _guarded(node) if id(node) in kept else "pass") for node in body]
         script.add(number, _replaced(text, [each for each in changes if each[1]]))
     return script
 
@@ -141,39 +146,84 @@ def _read(sources: list[str]) -> tuple[Script, dict[int, tuple[str, list[ast.stm
             script.left_out += [[number, *each] for each in broken]
             tree = ast.parse(text)
         cells[number] = text, tree.body
-    needed = _called([node for _, body in cells.values() for node in body]) & _BUILTINS
-    script.undone = [
-        [number, node.lineno, sorted(names)[0]]
-        for number, (_, body) in cells.items()
-        for node in body
-        if (names := _given(node)) and names <= needed
-    ]
+    everything = [node for _, body in cells.values() for node in body]
+    functions = _BUILTINS | {node.name for node in everything if isinstance(node, _DEFINITIONS)}
+    needed = _called(everything) & _BUILTINS
+    given: set[str] = set()
+    for number, (text, body) in cells.items():
+        uses: list[ast.Name] = []
+        for node in body:
+            if isinstance(node, (*_DEFINITIONS, ast.Import, ast.ImportFrom)):
+                continue
+            new = (_given(node, functions) & needed) - given
+            script.undone += [[number, node.lineno, name] for name in sorted(new)]
+            names = [each for each in ast.walk(node) if isinstance(each, ast.Name)]
+            before = set(ast.walk(_value(node) or ast.Pass()))  # has Python's values still
+            uses += [e for e in names if e.id in given or (e.id in new and e not in before)]
+            given |= new
+        if uses:
+            text = _renamed(text, uses)
+            cells[number] = text, ast.parse(text).body
     return script, cells
 
 
-def _given(node: ast.stmt) -> set[str]:
-    """Return the names that a statement gives a value, if it is no function or class."""
+def _given(node: ast.stmt, functions: set[str]) -> set[str]:
+    """Return the names that a statement gives values; functions: the names of functions.
+
+    Values that may be functions do not count: `sum = np.sum`, `print = partial(print, flush=True)`.
+    """
+    found = _stored(node) & _names(node)[0]
+    for each in ast.walk(node):
+        if (value := _value(each)) and not isinstance(each, ast.For):
+            parts = value.elts if isinstance(value, ast.Tuple) else [value]
+            if any(_may_be_function(part, functions) for part in parts):
+                found -= _stored(each)
+    return found
+
+
+def _stored(node: ast.AST) -> set[str]:
+    names = [each for each in ast.walk(node) if isinstance(each, ast.Name)]
+    return {each.id for each in names if isinstance(each.ctx, ast.Store)}
+
+
+def _value(node: ast.AST) -> ast.expr | None:
+    """Return what a statement stores, which is computed first."""
     if isinstance(node, ast.For):
-        return _names(node)[0]
-    if not isinstance(node, (ast.Assign, ast.AnnAssign)) or isinstance(
-        node.value, (ast.Lambda, ast.Name, ast.Attribute)
-    ):
-        return set()
-    targets = node.targets if isinstance(node, ast.Assign) else [node.target]
-    return {target.id if isinstance(target, ast.Name) else "" for target in targets}
+        return node.iter
+    return node.value if isinstance(node, (ast.Assign, ast.AnnAssign, ast.NamedExpr)) else None
+
+
+def _may_be_function(value: ast.expr, functions: set[str]) -> bool:
+    """Return whether a value may be a function: one by name, or one that is made of another."""
+    if isinstance(value, ast.Call):
+        given = [*value.args, *(each.value for each in value.keywords)]
+        names = functions & {each.id for each in given if isinstance(each, ast.Name)}
+        return bool(names) or any(isinstance(each, (ast.Lambda, ast.Attribute)) for each in given)
+    return isinstance(value, (ast.Lambda, ast.Name, ast.Attribute))
+
+
+def _renamed(text: str, uses: list[ast.Name]) -> str:
+    """Return a cell in which names of Python have other names at these places."""
+    lines = [line.encode() for line in text.split("\n")]
+    for use in sorted(set(uses), key=lambda use: (use.lineno, use.col_offset), reverse=True):
+        line, end = lines[use.lineno - 1], use.end_col_offset or 0
+        if line[use.col_offset : end] == use.id.encode():  # not so within some f-strings
+            lines[use.lineno - 1] = line[:end] + b"_of_yours" + line[end:]
+    return b"\n".join(lines).decode()
 
 
 def _called(body: list[ast.stmt]) -> set[str]:
     """Return the names that functions and classes call or use as types."""
     found = set()
     for top in body:
-        if not isinstance(top, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
+        if not isinstance(top, _DEFINITIONS):
             continue
         for node in ast.walk(top):
             uses: list[ast.AST | None] = []
             if isinstance(node, ast.Call):
-                checks = isinstance(node.func, ast.Name) and node.func.id == "isinstance"
-                uses = [node.func, *(node.args if checks else [])]
+                name = getattr(node.func, "id", getattr(node.func, "attr", ""))
+                uses = [node.func, *node.args[_TAKE_FUNCTIONS.get(name, _NONE)]]
+                uses += [each.value for each in node.keywords if each.arg in ("dtype", "key")]
             elif isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
                 uses = [*ast.walk(node.returns)] if node.returns else []
             elif isinstance(node, (ast.arg, ast.AnnAssign)) and node.annotation:
@@ -187,7 +237,7 @@ def _guarded(node: ast.stmt) -> str:
     if not isinstance(node, (ast.Import, ast.ImportFrom)):
         return ""
     if isinstance(node, ast.ImportFrom) and node.module == "__future__":
-        return ""
+        return "pass"
     names = [each.asname or each.name.partition(".")[0] for each in node.names]
     bound = " = ".join("_" if name == "*" else name for name in names)
     return f"exec({_IMPORT.format(text=ast.unparse(node), names=bound)!r})"

@@ -52,7 +52,7 @@ class Origin:
     place: Place | None = None
     """Line of the file -> words for its place; None: use the file's name and the line's number."""
     lost: dict[str, str] = field(default_factory=dict)
-    """Function in a part that is not read -> why."""
+    """Name in a part that is not read, mostly of a function -> why."""
 
 
 _ADVICE = (
@@ -160,7 +160,7 @@ def explained(answer: dict[str, Any], said: str, source: SourceLines) -> Wrong:
     )
     if answer.get("process") is True:
         text = NO_PROCESSES
-    elif name == "BotschoolError" and "ffmpeg" in text:
+    elif re.search(r"ffmpeg|unknown file extension: \.(mp4|gif)", text):
         text = NO_FILMS
     place = source.shown(answer.get("file"), answer.get("line"))
     if answer.get("loading"):
@@ -182,6 +182,9 @@ def explained(answer: dict[str, Any], said: str, source: SourceLines) -> Wrong:
     # drop the line if it is the grader's own
     told = f"{text} {place}"
     means = [advice for pattern, advice in _ADVICE if place and re.search(pattern, told)][:1]
+    unknown = re.match(r"name '(\w+)' is not defined", text) if name == "NameError" else None
+    if unknown and unknown[1] in source.lost:
+        near, means = "", [f"{unknown[1]} cannot be read: {source.lost[unknown[1]]}."]
     below = place + "".join(f"\n  {advice}" for advice in means)
     return Wrong(f"{said} raised {name}{colon}{_suggested(near, text)}{below}")
 
