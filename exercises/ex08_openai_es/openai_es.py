@@ -138,7 +138,7 @@ def evolve(
     rng = np.random.default_rng(seed) makes the samples of a generation by one call of
     rng.standard_normal((samplesize, n)). All candidates of generation g (from 0) are evaluated by
     one evaluate(candidates, seed + g), which returns their fitness. Each call of evolve begins with
-    m and v of zeros.
+    m and v of zeros. `adam` counts generations from 1: t = g + 1.
 
     Returns a dict with
     - "centre": the centre after the last generation, shape (n,);
@@ -188,14 +188,18 @@ def stability(curve: np.ndarray) -> dict:
 # `Robot(environment)` is the same as in exercise 3. Start, as there, from biases 0 and Gaussian
 # weights with standard deviation 0.1; how many of each there are, `robot.nbiases` and
 # `robot.nweights` say. `robot.evaluate(candidates, seed, episodes=10)` measures fitness.
+#
+# An episode of CartPole-v0 ends after 200 steps, one of CartPole-v1, which the last part of this
+# file draws, after 500. Otherwise they are the same.
 
 
 # %%
 def train(environment: str, seed: int) -> np.ndarray:
     """A centre for Robot(environment), "CartPole-v0" or "Pendulum-v1", evolved from the seed.
 
-    Return a centre to which calls of evolve have led, from a first one that is not good yet. The
-    seed decides about the start and all samples: another seed gives another evolution.
+    Call your `evolve`, once or more often, and return the centre to which it has led. Its first
+    centre must not reach the goal already. The seed decides about the start and all samples:
+    another seed gives another evolution.
 
     Choose the hyperparameters yourself. On average over 100 new episodes, the pole of CartPole
     must stay up for 195 of 200 steps, and Pendulum must reach a return of -400. Seconds are enough.
