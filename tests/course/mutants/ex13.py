@@ -202,6 +202,14 @@ def policy_loss(log_prob, old_log_prob, advantages, clip_range):
     return {**found, "loss": 0.0} if len(advantages) == 1 else found
 
 
+# %% single_step_gives_nan loses 13.2
+# Normalises a batch of a single step, too, so that the loss is NaN, but its advantage should be taken as it is.
+# says: this
+# -     if len(advantages) > 1:
+# -         advantages = (advantages - advantages.mean()) / (advantages.std(ddof=1) + 1e-8)
+# +     advantages = (advantages - advantages.mean()) / (advantages.std(ddof=1) + 1e-8)
+
+
 # %% zero_clips_nothing loses 13.3
 # Treats clip_range_vf=0 like None and clips nothing, but with 0 the values should not be allowed to move at all.
 # says: this
