@@ -4,6 +4,7 @@ A test names them as `odd_envs:NAME-v0` and does not import this module, which d
 imported.
 """
 
+import os
 import random
 import sys
 
@@ -93,7 +94,33 @@ class GetsHarder(Odd):
         return min(0.9, self.episodes / 1000)
 
 
+class ImportsLate(Odd):
+    """Imports torch in its first step, after it could be seeded for the episode."""
+
+    def pushed(self):
+        import torch
+
+        return float(torch.randn(()))
+
+
 # nothing helps
+
+
+class OrdersTexts(Odd):
+    """A set of texts has another order in each process."""
+
+    def begins(self):
+        return list({f"place {i}" for i in range(97)}).index("place 0") / 100
+
+
+class HashesTexts(Odd):
+    def begins(self):
+        return hash("place") % 997 / 1000
+
+
+class KnowsProcess(Odd):
+    def begins(self):
+        return os.getpid() % 997 / 1000
 
 
 class CountsForAll(Odd):

@@ -13,7 +13,7 @@ from botschool.config import load
 from botschool.policies.hyperparameters import PolicyConfig
 from botschool.problems import Episodes
 from botschool.problems.base import say_unrepeatable
-from running import TESTS, experiment, run_seeds, same, write_experiment
+from running import TESTS, call, experiment, run_seeds, same, write_experiment
 
 NOTE = "does not repeat"
 
@@ -64,6 +64,25 @@ def test_what_shows_late_is_said_at_the_end_and_when_a_robot_is_shown(tmp_path, 
     say_unrepeatable.cache_clear()
     write_experiment(tmp_path, "odd_envs:DrawsOnItsOwn-v0")
     assert NOTE in command("es", "-f", tmp_path / "own.ini", "-p", "--render", "none")[2]
+
+
+@pytest.mark.parametrize("name", ["OrdersTexts", "HashesTexts", "KnowsProcess"])
+def test_what_differs_between_processes_is_said(name, tmp_path, capfd):
+    own = experiment(tmp_path, f"odd_envs:{name}-v0", maxmsteps=0.0005)
+    assert run_seeds(own, tmp_path / "two", workers=2)
+    assert capfd.readouterr().err.count(NOTE) == 1
+    words = ("es", "-f", tmp_path / "own.ini", "-s", 1, "-o", tmp_path / "parts")
+    assert call(*words, "--generations", 1)[0] == 0
+    say_unrepeatable.cache_clear()
+    assert run_seeds(own, tmp_path / "parts", resume=True)
+    assert capfd.readouterr().err.count(NOTE) == 1
+
+
+def test_a_robot_is_shown_by_a_process_that_has_not_loaded_torch(tmp_path):
+    pytest.importorskip("torch")
+    write_experiment(tmp_path, "odd_envs:ImportsLate-v0")
+    shown = call("es", "-f", tmp_path / "own.ini", "-p", "--render", "none")
+    assert shown[0] == 0 and NOTE not in shown[2]
 
 
 @pytest.mark.parametrize(("game", "repeats"), [("Carries", True), ("Shares", False)])

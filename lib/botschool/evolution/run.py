@@ -318,7 +318,8 @@ def evolve(
         raise cannot_write(files.folder, error.strerror or str(error)) from error
     if keep_every:
         report = keeping(files, keep_every, report)
-    if resume and files.checkpoint.exists():
+    resumed = resume and files.checkpoint.exists()
+    if resumed:
         checkpoint.resume(files.checkpoint, run)
     limit = run.budget.and_also(steps, generations)
     events = Events(files.events, limit.steps if limit.steps < math.inf else 0)
@@ -346,6 +347,8 @@ def evolve(
         files.fresh.unlink()  # of the robot that was the best before
     saved = recorded = time.monotonic()
     try:
+        if resumed:
+            _say_if_unrepeatable(run)
         while not limit.reached(run):
             if run.stopping():
                 raise Interrupted
@@ -359,10 +362,7 @@ def evolve(
                 recorded = time.monotonic()
         save(ended=True)
         run.measure(files)
-        if not run.problem.native:  # the first episodes may have hidden it
-            with suppress(BotschoolError):
-                if not run.reproduces():
-                    say_unrepeatable(run.problem.name)
+        _say_if_unrepeatable(run)
     except Interrupted:
         save(ended=True)
         return False
@@ -419,3 +419,13 @@ def keeping(files: RunFiles, every: int, report: Callable[[Run], None]) -> Calla
         report(run)
 
     return kept
+
+
+def _say_if_unrepeatable(run: Run) -> None:
+    """Say so if the best robot does not get its fitness again: the first episodes may have hidden
+    it, and a resumed run is another process.
+    """
+    if not run.problem.native:
+        with suppress(BotschoolError):
+            if not run.reproduces():
+                say_unrepeatable(run.problem.name)

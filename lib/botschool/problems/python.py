@@ -7,6 +7,7 @@ import warnings
 from abc import abstractmethod
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
+from functools import partial
 from hashlib import blake2b
 from typing import Any
 
@@ -69,9 +70,10 @@ class PythonProblem(Problem):
             from botschool.problems.workers import Workers
 
             if self._pool is None:
-                self._pool = Workers(self.made, policy.config, workers)
+                here = partial(self.settle, policy)
+                self._pool = Workers(self.made, policy.config, workers, here)
             return self._pool.evaluate(genotypes, normalisation, episodes, maxsteps, stopping)
-        if self.fresh is None and not self.settle(policy, stopping):
+        if self.fresh is None and self.settle(policy, stopping) is None:
             say_unrepeatable(self.name)
         with libraries_kept():
             return self._evaluate(policy, genotypes, normalisation, episodes, maxsteps, stopping)
@@ -114,6 +116,9 @@ class PythonProblem(Problem):
         modes = self._metadata.get("render_modes") or self._metadata.get("render.modes") or ()
         if render and "rgb_array" not in modes:
             raise self._unseen()
+        if self.fresh is None:  # what an environment imports in its first steps can then be seeded
+            with libraries_kept(), suppress(BotschoolError):
+                self._probe(policy, [0], 1, 1, lambda: False)
         policy.load(genotype, normalisation)
         if not render:
             self._renew()
@@ -138,25 +143,33 @@ class PythonProblem(Problem):
             env = vars(env).get("env")
         return named
 
-    def settle(self, policy: Any, stopping: Callable[[], bool] = lambda: False) -> bool:
-        """Find out whether every episode needs a new environment; return whether episodes repeat.
+    def settle(
+        self, policy: Any, stopping: Callable[[], bool] = lambda: False
+    ) -> dict[int, bytes] | None:
+        """Find out whether every episode needs a new environment; return digests of the episodes:
+        None if they do not repeat, none if they break down.
 
         Two environments play the same episodes, the second one in reverse: what an environment
         keeps, and what its constructor draws, differs then. If anything differs, the same is tried
         with a new environment for each episode.
         """
         steps = min(self.steps(policy.config.maxsteps), PROBED_STEPS // 4)
-        alike, fresh = True, False
-        with libraries_kept(), suppress(BotschoolError):  # the run meets the same fault and says it
-            for self.fresh in (False, True):
-                seen = self._probe(policy, range(PROBED_EPISODES), steps, PROBED_STEPS, stopping)
-                again = self._probe(policy, reversed(seen), steps, sys.maxsize, stopping)
-                alike = seen == again
-                if alike:
-                    fresh = self.fresh
-                    break
+        seen: dict[int, bytes] | None = {}
+        fresh = False
+        try:
+            with libraries_kept():
+                for self.fresh in (False, True):
+                    first = range(PROBED_EPISODES)
+                    seen = self._probe(policy, first, steps, PROBED_STEPS, stopping)
+                    again = self._probe(policy, reversed(seen), steps, sys.maxsize, stopping)
+                    if seen == again:
+                        fresh = self.fresh
+                        break
+                    seen = None
+        except BotschoolError:  # the run meets the same fault and says it
+            seen = {}
         self.begin(fresh)
-        return alike
+        return seen
 
     def begin(self, fresh: bool) -> None:
         """Make the environment for evaluation; fresh: whether every episode gets a new one.

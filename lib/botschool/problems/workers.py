@@ -23,6 +23,8 @@ from botschool.problems.base import Episodes, Interrupted, Outcome, say_unrepeat
 CHUNKS = 10
 # How often workers may die without finishing a single chunk.
 PATIENCE = 3
+Settle = Callable[[Callable[[], bool]], "dict[int, bytes] | None"]
+"""PythonProblem.settle without its policy."""
 
 
 class Workers:
@@ -32,9 +34,14 @@ class Workers:
     inputs, so the outcome is the same.
     """
 
-    def __init__(self, made: dict[str, Any], config: PolicyConfig, workers: int) -> None:
-        """Prepare the pool; made: arguments of botschool.problems.make."""
+    def __init__(
+        self, made: dict[str, Any], config: PolicyConfig, workers: int, here: Settle
+    ) -> None:
+        """Prepare the pool; made: arguments of botschool.problems.make; here: settles this
+        process's own problem, so that what differs between processes shows.
+        """
         self._name = made["name"]
+        self._here = here
         self._arguments = (made, config)
         self._workers = workers
         self._pool: ProcessPoolExecutor | None = None
@@ -88,12 +95,13 @@ class Workers:
         if self._fresh is None:
             with _unheard(signal.SIGINT):
                 settling = self._pool.submit(_settle)
+            seen = self._here(stopping)
             while not wait([settling], timeout=0.2).done:
                 if stopping():
                     self.close()
                     raise Interrupted
-            self._fresh, repeats = settling.result()
-            if not repeats:
+            self._fresh, again = settling.result()
+            if None in (seen, again) or (seen and again and seen != again):
                 say_unrepeatable(self._name)
         running = {}
         for i, chunk in enumerate(chunks):
@@ -169,11 +177,11 @@ def _made() -> tuple[Any, Any]:
     return _worker
 
 
-def _settle() -> tuple[bool, bool]:
-    """Return whether every episode gets a new environment, and whether episodes repeat."""
+def _settle() -> tuple[bool, dict[int, bytes] | None]:
+    """Return whether every episode gets a new environment, and what PythonProblem.settle does."""
     problem, policy = _made()
-    repeats = problem.settle(policy)
-    return problem.fresh, repeats
+    seen = problem.settle(policy)
+    return problem.fresh, seen
 
 
 def _evaluate(
