@@ -217,6 +217,11 @@ class Seedless(CartPoleEnv):
         return super().reset()
 
 
+class Optionless(CartPoleEnv):
+    def reset(self, seed=None):
+        return super().reset(seed=seed)
+
+
 class Outside(CartPoleEnv):
     def reset(self, seed=None, options=None):
         super().reset(seed=seed)

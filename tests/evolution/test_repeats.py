@@ -121,6 +121,7 @@ def test_nobody_else_s_draws_change():
         ("Three", ["reset", "(observation, info)"]),
         ("Pair", ["reset", ""]),
         ("Seedless", ["reset", "def reset(self, seed=None, options=None)"]),
+        ("Optionless", ["reset", "def reset(self, seed=None, options=None)"]),
         ("Outside", ["reset", ""]),
         ("Four", ["step 1", "(observation, reward, terminated, truncated, info)"]),
         ("Ends", ["step 1", "mend the environment"]),

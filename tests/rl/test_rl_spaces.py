@@ -93,7 +93,7 @@ class Faulty(Asserting):
 
     def step(self, action):
         observation, _, *ends, info = super().step(action)
-        reward = {"huge": 1e200, "infinite": np.inf}.get(self.fault, 1.0)
+        reward = {"huge": 1e200, "whole": 10**400, "infinite": np.inf}.get(self.fault, 1.0)
         return observation, reward, *ends, None if self.fault == "no info" else info
 
 
@@ -191,6 +191,7 @@ def test_plain_spaces_hold_what_is_translated(space):
     ("three", "reset does not return (observation, info)"),
     ("info", "reset does not return (observation, info)"),
     ("huge", "its reward was 1e+200"),
+    ("whole", "its reward was 1000"),
     ("infinite", "its reward was inf"),
 ])  # fmt: skip
 def test_broken_rules_are_one_sentence(fault, says):

@@ -84,7 +84,7 @@ def curve(rows: np.ndarray) -> str:
     rows = rows[np.unique(np.linspace(0, len(rows) - 1, POINTS).round().astype(int))]
     values = rows[:, [column for column, _, _ in LINES]]
     low, high = np.nanmin(values), np.nanmax(values)
-    high = high if high > low else low + 1
+    high = high if high > low else low + max(1.0, abs(low))
     right = max(rows[-1, STEPS], 1.0)
 
     def place(step: float, value: float) -> str:

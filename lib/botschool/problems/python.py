@@ -27,6 +27,7 @@ START = "reset must return two values, (observation, info), info a dict"
 STEP = "step must return five values, (observation, reward, terminated, truncated, info)"
 HINTS = {
     "argument 'seed'": "write def reset(self, seed=None, options=None)",
+    "argument 'options'": "write def reset(self, seed=None, options=None)",
     "unpack": f"{START}; {STEP}",
 }
 """Part of an exception's message -> what the environment must do instead."""

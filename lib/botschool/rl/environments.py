@@ -119,7 +119,7 @@ class Guard(gymnasium.Wrapper):
     def _number(self, reward) -> float:
         try:
             number = float(reward)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             number = np.nan
         if not np.isfinite(number):
             raise self._broken(f"its reward was {shown(reward)}")
