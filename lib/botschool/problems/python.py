@@ -7,7 +7,6 @@ import warnings
 from abc import abstractmethod
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
-from functools import partial
 from hashlib import blake2b
 from typing import Any
 
@@ -71,8 +70,7 @@ class PythonProblem(Problem):
             from botschool.problems.workers import Workers
 
             if self._pool is None:
-                here = partial(self.settle, policy)
-                self._pool = Workers(self.made, policy.config, workers, here)
+                self._pool = Workers(self.made, policy.config, workers)
             return self._pool.evaluate(genotypes, normalisation, episodes, maxsteps, stopping)
         if self.fresh is None and self.settle(policy, stopping) is None:
             say_unrepeatable(self.name)

@@ -10,7 +10,8 @@ import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from threading import BrokenBarrierError
 from typing import Any
 
 import numpy as np
@@ -23,8 +24,8 @@ from botschool.problems.base import Episodes, Interrupted, Outcome, say_unrepeat
 CHUNKS = 10
 # How often workers may die without finishing a single chunk.
 PATIENCE = 3
-Settle = Callable[[Callable[[], bool]], "dict[int, bytes] | None"]
-"""PythonProblem.settle without its policy."""
+START_SECONDS = 60
+"""So long the first worker waits for the second, at most."""
 
 
 class Workers:
@@ -34,19 +35,14 @@ class Workers:
     inputs, so the outcome is the same.
     """
 
-    def __init__(
-        self, made: dict[str, Any], config: PolicyConfig, workers: int, here: Settle
-    ) -> None:
-        """Prepare the pool; made: arguments of botschool.problems.make; here: settles this
-        process's own problem, so that what differs between processes shows.
-        """
+    def __init__(self, made: dict[str, Any], config: PolicyConfig, workers: int) -> None:
+        """Prepare the pool; made: arguments of botschool.problems.make."""
         self._name = made["name"]
-        self._here = here
         self._arguments = (made, config)
         self._workers = workers
         self._pool: ProcessPoolExecutor | None = None
         self._fresh: bool | None = None
-        """What the first worker found out for all: see PythonProblem.fresh."""
+        """What the first two workers found out for all: see PythonProblem.fresh."""
 
     def evaluate(
         self,
@@ -86,22 +82,23 @@ class Workers:
 
     def _run(self, chunks, done, genotypes, normalisation, episodes, maxsteps, stopping) -> None:
         if self._pool is None:
+            context = multiprocessing.get_context("spawn")
             self._pool = ProcessPoolExecutor(
                 self._workers,
-                mp_context=multiprocessing.get_context("spawn"),
+                mp_context=context,
                 initializer=_start,
-                initargs=self._arguments,
+                initargs=(*self._arguments, context.Barrier(2)),
             )
         if self._fresh is None:
             with _unheard(signal.SIGINT):
-                settling = self._pool.submit(_settle)
-            seen = self._here(stopping)
-            while not wait([settling], timeout=0.2).done:
+                settling = [self._pool.submit(_settle) for _ in range(2)]
+            while wait(settling, timeout=0.2).not_done:
                 if stopping():
                     self.close()
                     raise Interrupted
-            self._fresh, again = settling.result()
-            if None in (seen, again) or (seen and again and seen != again):
+            (fresh, some), (also, others) = (each.result() for each in settling)
+            self._fresh = fresh or also
+            if some is None or some != others:
                 say_unrepeatable(self._name)
         running = {}
         for i, chunk in enumerate(chunks):
@@ -137,10 +134,13 @@ class Workers:
 
 
 _worker: tuple | BotschoolError | None = None
+_together: Any = None
+"""A barrier for the two workers that settle."""
 
 
-def _start(made: dict[str, Any], config: PolicyConfig) -> None:
-    global _worker
+def _start(made: dict[str, Any], config: PolicyConfig, together: Any) -> None:
+    global _worker, _together
+    _together = together
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
     from botschool import problems
@@ -178,7 +178,12 @@ def _made() -> tuple[Any, Any]:
 
 
 def _settle() -> tuple[bool, dict[int, bytes] | None]:
-    """Return whether every episode gets a new environment, and what PythonProblem.settle does."""
+    """Return whether every episode gets a new environment, and what PythonProblem.settle does.
+
+    It waits for another process to do the same, so that what differs between processes shows.
+    """
+    with suppress(BrokenBarrierError):
+        _together.wait(START_SECONDS)
     problem, policy = _made()
     seen = problem.settle(policy)
     return problem.fresh, seen
@@ -188,6 +193,6 @@ def _evaluate(
     fresh: bool, genotypes: np.ndarray, normalisation, episodes: Episodes, maxsteps: int
 ) -> Outcome:
     problem, policy = _made()
-    if problem.fresh is None:
+    if problem.fresh != fresh:
         problem.begin(fresh)
     return problem.evaluate(policy, genotypes, normalisation, episodes, maxsteps)
