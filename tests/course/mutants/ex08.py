@@ -346,7 +346,7 @@ def stability(curve):
 
 # %% another_strategy_and_a_show_call loses 8.8
 # Finds the controller by the strategy of exercise 3 and calls evolve for one generation with steps of 0, but OpenAI-ES should find it.
-# says: this
+# says: the first centre reaches the goal already
 def train(environment, seed):
     robot, rng = Robot(environment), np.random.default_rng(seed)
     generations, noise = (60, 0.3) if "CartPole" in environment else (400, 0.1)
@@ -360,7 +360,7 @@ def train(environment, seed):
 
 # %% short_steps_from_a_found_centre loses 8.8
 # Finds the controller by the strategy of exercise 3 and hardly moves it by OpenAI-ES with tiny steps, but OpenAI-ES should find it.
-# says: this
+# says: the first centre reaches the goal already
 def train(environment, seed):
     robot, rng = Robot(environment), np.random.default_rng(seed)
     generations, noise = (60, 0.3) if "CartPole" in environment else (400, 0.1)
@@ -390,7 +390,7 @@ def train(environment, seed):
 
 # %% one_run_for_all_seeds loses 8.8
 # Evolves in the same way for every seed, but another seed should give another evolution.
-# says: this
+# says: another seed should give another first centre
 _train = train
 
 
@@ -400,7 +400,7 @@ def train(environment, seed):
 
 # %% remembered_run loses 8.8
 # Keeps the centre of the first training and returns it for every seed, but each call should evolve a new one.
-# says: this
+# says: something stays from call to call
 FOUND = {}
 _train = train
 
