@@ -383,12 +383,12 @@ def expect_evolved(student: Student, environment: str, index: int, goal: float) 
     begun = [runs, *(train(each, 8)[1] for each in (seed, seed + 1))]
     expect(all(runs and runs[0][2] for runs in begun), f"{said}: call evolve in each training.")
     this, again, other = ((runs[0][0], runs[0][2][0]) for runs in begun)
-    for at, what in enumerate(("first centre", "samples")):
+    for at, (what, another) in enumerate((("first centre", "another"), ("samples", "other"))):
         equal = np.array_equal(this[at], again[at])
         expect(equal, f"{said}: the same seed should give the same {what}.")
         few = min(len(this[at]), len(other[at]))
         differs = not np.allclose(this[at][:few], other[at][:few])
-        expect(differs, f"{said}: another seed should give another {what}.")
+        expect(differs, f"{said}: another seed should give {another} {what}.")
 
 
 @training.check(5)

@@ -970,14 +970,14 @@ def smooth(curve, width):
 
 # %% start_without_seed loses 8.8
 # Starts from the same centre for every seed, but the first weights should be drawn from the seed.
-# says: this
+# says: another seed should give another first centre
 # -     weights = 0.1 * np.random.default_rng(seed).standard_normal(robot.nweights)
 # +     weights = 0.1 * np.random.default_rng(0).standard_normal(robot.nweights)
 
 
 # %% best_candidate loses 8.8
 # Returns the best candidate of all instead of a centre.
-# says: this
+# says: a centre to which your evolve has led
 # -     def evaluate(candidates, seed):
 # -         return robot.evaluate(candidates, seed, episodes=10)
 # +     best = [-np.inf, centre]
@@ -1102,14 +1102,14 @@ def descent(gradient, centre, wdecay):
 
 # %% same_samples_for_all_seeds loses 8.8
 # Uses the same samples for every seed, but the samples should follow from the seed, as the first weights do.
-# says: this
+# says: another seed should give other samples
 # -     run = evolve(evaluate, centre, generations, seed, noiseStdDev=0.2, stepsize=0.05)
 # +     run = evolve(evaluate, centre, generations, 7, noiseStdDev=0.2, stepsize=0.05)
 
 
 # %% from_nothing loses 8.8
 # Starts from zeros for every seed, but the first weights should be drawn from the seed.
-# says: this
+# says: another seed should give another first centre
 # -     centre = np.concatenate([np.zeros(robot.nbiases), weights])
 # +     centre = np.zeros(robot.nbiases + robot.nweights)
 
@@ -1266,7 +1266,7 @@ def smooth(curve, width):
 
 # %% returns_the_dict_of_evolve loses 8.8
 # Returns the whole dict of evolve, but only its centre is asked for.
-# says: this
+# says: returned a dict with the keys
 # -     return run["centre"]
 # +     return run
 
@@ -1331,7 +1331,7 @@ def smooth(curve, width):
 
 # %% returns_the_first_centre loses 8.8
 # Returns the first centre, where the evolution begins, instead of the one to which it leads.
-# says: this
+# says: a centre to which your evolve has led
 # -     return run["centre"]
 # +     return centre
 
