@@ -343,7 +343,7 @@ def next_population(population, fitness, mutrate, rng):
 
 # %% one_run_and_noise loses 3.7
 # Evolves with seed 1 whatever the seed is and adds a little noise to the result, but the whole evolution should follow from the seed.
-# says: this
+# says: should return a candidate that it gave
 _evolve_and_choose = train
 
 
@@ -354,7 +354,7 @@ def train(environment, seed):
 
 # %% one_run_and_its_relatives loses 3.7
 # Evolves with seed 1 whatever the seed is and chooses among slightly changed copies, but the whole evolution should follow from the seed.
-# says: this
+# says: another seed gives nearly the same parameters
 _evolve_and_choose = train
 
 
@@ -698,7 +698,7 @@ def hill_climb(evaluate, *arguments, **options):
 
 # %% returns_the_worst_of_the_last loses 3.7
 # Returns the worst candidate of the last evaluation instead of the best.
-# says: this
+# says: should return a controller that reaches
 # -     return run["population"][rank(fitness)[0]]
 # +     return run["population"][np.argsort(fitness)[0]]
 
