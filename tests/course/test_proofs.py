@@ -127,6 +127,14 @@ def test_there_are_mutants(number):
     assert sum(case.says is not None for case in own) >= NAMED
 
 
+def test_a_change_reaches_what_uses_it():
+    """The function itself, and those that call it, also by another function."""
+    one = building.source(8)
+    assert one.reached(one.solution) == set()
+    found = one.reached(building.inserted(one.solution, "def utilities(fitness): ..."))
+    assert {"8.2", "8.6", "8.8"} <= found and not {"8.1", "8.7"} & found
+
+
 @pytest.mark.course
 @pytest.mark.parametrize("mutant", MUTANTS, ids=str)
 def test_mutant_loses_what_it_names(grade, mutant, tmp_path):
