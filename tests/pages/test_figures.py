@@ -121,6 +121,15 @@ def test_start_says_what_a_page_needs(capsys, monkeypatch):
     page.unlink()
 
 
+def test_start_in_a_copy_without_pages_sends_nobody_to_make(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(exercise, "core_file", no_core)
+    release(ROOT, tmp_path / "copy", {1})
+    monkeypatch.setenv("BOTSCHOOL_COURSE", str(tmp_path / "copy"))
+    start_command("1", False, False)
+    said = " ".join(capsys.readouterr().out.split())
+    assert "This copy has none" in said and "make web" not in said
+
+
 def test_an_exercise_without_figures_has_no_page(tmp_path):
     (tmp_path / "README.md").write_text("# Exercise 16. Tiny\n")
     assert not has_page(tmp_path) and not has_page(tmp_path / "nothing")

@@ -313,13 +313,16 @@ def start_command(what: str, notebook: bool, opens: bool = True) -> None:
 
 def _lead_to_page(number: int, root: Path, console: Console, opens: bool) -> None:
     """Print where the living page of an exercise is, and open it."""
+    from botschool.grading.copies.release import MANIFEST
     from botschool.grading.copies.starting import living_page
     from botschool.grading.report.showing import open_page
 
     try:
         page = living_page(number, root)
     except BotschoolError as error:
-        console.print(f"  {'See':<11}the text as a page with figures: {error}", markup=False)
+        copy = "This copy has none; whoever made it can add it."
+        why = copy if (root / MANIFEST).is_file() else error
+        console.print(f"  {'See':<11}the text as a page with figures: {why}", markup=False)
         return
     if page:
         note = " (opened in your browser)" if opens and open_page(page.resolve()) else ""
