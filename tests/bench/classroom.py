@@ -88,12 +88,7 @@ def make_class(top: Path, options: argparse.Namespace) -> list[Student]:
     """Write the download, the platform's table and class.yaml."""
     source = building.source(options.exercise)
     cases = [("solution", (), source.solution), ("skeleton", None, source.skeleton)]
-    cases += [
-        (case.name, case.loses, case.submission)
-        for kind in ("alternatives", "mutants")
-        for case in building.cases(kind)
-        if case.number == options.exercise
-    ]
+    cases += [(case.name, case.loses, case.submission) for case in building.cases(options.exercise)]
     tasks = tuple(task.id for task in building.exercise(options.exercise).tasks)
     export, first = EXPORTS[options.platform]
     students, people = [], []

@@ -67,7 +67,7 @@ def main() -> None:
 
 def drawn(number: int, given: argparse.Namespace) -> list[tuple[str, str]]:
     """Return names and texts of some known mistakes."""
-    cases = [case for case in building.cases("mutants") if case.number == number]
+    cases = [case for case in building.cases(number) if case.loses]
     some = random.Random(f"{given.seed} {number}").sample(cases, given.wrong)
     return [(case.name, case.submission) for case in some]
 

@@ -1,8 +1,8 @@
 """Submissions made of a solution or a skeleton and something wrong, different or hostile.
 
-mutants/exNN.py holds the wrong solutions of an exercise, alternatives/exNN.py right ones in other
-styles. botschool/grading/declare/mistakes.py describes how a case is written. The files of hostile/
-have sections, too: a name, a line that says what is hostile, and code.
+cases/exNN.txt holds the wrong answers to an exercise, and right ones in other styles;
+botschool/grading/declare/mistakes.py describes how a case is written. The files of hostile/ have
+sections, too: a name, a line that says what is hostile, and code.
 """
 
 import ast
@@ -15,7 +15,7 @@ from pathlib import Path
 from botschool.grading.copies.skeleton import skeleton
 from botschool.grading.declare import mistakes
 from botschool.grading.declare.exercise import Exercise, Task, folder_of, load_exercise
-from botschool.grading.declare.mistakes import inserted, read_cases
+from botschool.grading.declare.mistakes import case_text, inserted, read_cases
 
 __all__ = ["inserted"]
 QUICK = 20
@@ -151,12 +151,20 @@ def sections(path: Path) -> list[tuple[str, str]]:
     return list(zip(parts[::2], parts[1::2], strict=True))
 
 
-def cases(kind: str) -> list[Case]:
-    """Return all cases of "mutants" or "alternatives"."""
-    found = []
-    for path in sorted((HERE / kind).glob("ex[0-9][0-9].py")):
-        found += read_cases(int(path.stem[2:]), path.read_text(encoding="utf-8"), Case)
-    return found
+@cache
+def cases(number: int) -> list[Case]:
+    """Return an exercise's cases: wrong answers, and right ones in other styles."""
+    return read_cases(number, case_text(ROOT, number), Case)
+
+
+def wrong() -> list[Case]:
+    """Return the wrong answers to all exercises."""
+    return [case for number in GRADED for case in cases(number) if case.loses]
+
+
+def right() -> list[Case]:
+    """Return the right answers in other styles to all exercises."""
+    return [case for number in GRADED for case in cases(number) if not case.loses]
 
 
 @cache

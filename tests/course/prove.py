@@ -46,12 +46,7 @@ def main() -> None:
         text = given.new.read_text(encoding="utf-8")
         cases, jobs = building.read_cases(given.number, text, building.Case), []
     else:
-        cases = [
-            case
-            for kind in ("alternatives", "mutants")
-            for case in building.cases(kind)
-            if case.number == given.number
-        ]
+        cases = building.cases(given.number)
     jobs += [(case.name, case.submission, case.loses, case) for case in cases]
     words = []
     with fork_server(exercise.imports) as server, tempfile.TemporaryDirectory() as folder:

@@ -50,7 +50,7 @@ def test_packed_grader_gives_the_solution_everything(grade, copy, number):
 
 @for_each_exercise
 def test_packed_grader_finds_a_mutant(grade, copy, number):
-    mutant = next(case for case in building.cases("mutants") if case.number == number)
+    mutant = next(case for case in building.cases(number) if case.loses)
     file = put(copy, number, mutant.submission)
     result = grade(load_exercise(number, copy), file)
     lost = {task.id for task in result.tasks if task.points < task.max_points}

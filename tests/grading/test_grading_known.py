@@ -43,20 +43,20 @@ if __name__ == "__main__":
 MISTAKES = '''"""Wrong solutions."""
 
 
-# %% by_n loses 3.1
-# Divides the sum by n instead of n - 1.
-# -     spread_marks_our_own_first = np.std(values, ddof=1)
-# +     spread_marks_our_own_first = np.std(values)
+%% by_n loses 3.1
+Divides the sum by n instead of n - 1.
+-     spread_marks_our_own_first = np.std(values, ddof=1)
++     spread_marks_our_own_first = np.std(values)
 
 
-# %% half_range loses 3.1
-# Gives half of the distance from the smallest to the largest value is returned.
+%% half_range loses 3.1
+Gives half of the distance from the smallest to the largest value is returned.
 def spread(values):
     return float(np.ptp(values)) / 2
 
 
-# %% from_one loses 3.2
-# Counts the steps from 1.
+%% from_one loses 3.2
+Counts the steps from 1.
 def walk(step, many):
     return [step(i) for i in range(1, many + 1)]
 '''
@@ -142,8 +142,8 @@ def test_a_mistake_that_raises_the_same_is_proof(messages):
         MISTAKES
         + """
 
-# %% no_root_of_five loses 3.1
-# Takes five values for too many.
+%% no_root_of_five loses 3.1
+Takes five values for too many.
 def spread(values):
     if len(values) == 5:
         raise ValueError("five")
@@ -204,19 +204,19 @@ def test_time_is_limited(messages, monkeypatch, when, told):
     """A mistake that never ends costs little; after a first answer that fits, all the time."""
     monkeypatch.setattr(replay, "SECONDS", 0.5)
     endless = (
-        "\n\n# %% endless loses 3.1\n# It never ends.\ndef spread(values):\n"
+        "\n\n%% endless loses 3.1\nIt never ends.\ndef spread(values):\n"
         f"    while {when}: pass\n    return float(np.std(values))\n"
     )
-    by_n, rest = MISTAKES.split("\n\n# %% half", 1)
-    head, by_n = by_n.split("\n\n# %% by_n", 1)
-    text = f"{head}{endless}\n\n# %% by_n{by_n}\n\n# %% half{rest}"
+    by_n, rest = MISTAKES.split("\n\n%% half", 1)
+    head, by_n = by_n.split("\n\n%% by_n", 1)
+    text = f"{head}{endless}\n\n%% by_n{by_n}\n\n%% half{rest}"
     assert [case.name for case in read_cases(3, text)][:2] == ["endless", "by_n"]
     first, _ = messages(RIGHT + BY_N, declared(mistakes=text))
     assert first.startswith(TOLD) == told
 
 
 def test_mistakes_that_import_something_come_last():
-    slow = "# %% slow loses 3.1\n# It asks a library.\nimport statistics\n\n"
+    slow = "%% slow loses 3.1\nIt asks a library.\nimport statistics\n\n"
     names = [case.name for case in Known(3, SOLUTION, slow + MISTAKES).of("3.1")]
     assert names == ["by_n", "half_range", "slow"]
 
@@ -230,14 +230,14 @@ def test_no_time_limit_cuts_the_import_of_a_package_short(messages, monkeypatch)
         return [True] * len(texts)
 
     monkeypatch.setattr(replay, "_near", near)
-    library = "# %% library loses 3.1\n# It asks a library.\nimport torch\n\n"
+    library = "%% library loses 3.1\nIt asks a library.\nimport torch\n\n"
     first, _ = messages(RIGHT + BY_N, declared(mistakes=library + MISTAKES))
     assert first.startswith(TOLD)
     assert timed and not any("import torch" in text for text in timed)
 
 
 def test_a_mistake_that_fits_no_more_is_left_out(messages):
-    text = MISTAKES.replace("# -     spread_marks", "# -     another_marks", 1)
+    text = MISTAKES.replace("-     spread_marks", "-     another_marks", 1)
     with pytest.raises(ValueError, match="must hold these lines exactly once"):
         read_cases(3, text)[0].of(SOLUTION)
     assert TOLD not in messages(RIGHT + BY_N, declared(mistakes=text))[0]
@@ -441,14 +441,14 @@ def save(values, folder):
     ### END SOLUTION
 '''
 NAMES = '''"""Wrong solutions."""
-# %% one_file_each loses 3.1
-# There is a file for each value.
-# -     name = "sum"
-# +     name = f"sum{values[0]}"
-# %% total loses 3.1
-# Gives the file another name.
-# -     name = "sum"
-# +     name = "total"
+%% one_file_each loses 3.1
+There is a file for each value.
+-     name = "sum"
++     name = f"sum{values[0]}"
+%% total loses 3.1
+Gives the file another name.
+-     name = "sum"
++     name = "total"
 '''
 
 

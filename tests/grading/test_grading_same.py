@@ -58,16 +58,16 @@ def judged(value):
     return {"value": 2 * value, "word": "high" if value > 0.5 else "low"}
     ### END SOLUTION
 '''
-MISTAKES = """# %% root_of_the_deviation loses 4.4
-# Takes 0.5 for the variance instead of the standard deviation.
+MISTAKES = """%% root_of_the_deviation loses 4.4
+Takes 0.5 for the variance instead of the standard deviation.
 def noise(n, seed):
     return np.random.default_rng(seed).normal(size=n) * 0.5**0.5
 
 
-# %% factor_left_out loses 4.1
-# Leaves out the factor.
-# -     return many * np.asarray(centre) + factor * np.asarray(samples)
-# +     return many * np.asarray(centre) + np.asarray(samples)
+%% factor_left_out loses 4.1
+Leaves out the factor.
+-     return many * np.asarray(centre) + factor * np.asarray(samples)
++     return many * np.asarray(centre) + np.asarray(samples)
 """
 
 

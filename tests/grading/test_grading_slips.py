@@ -94,7 +94,7 @@ def test_other_answers_are_no_slip(messages):
 def test_a_slip_in_a_right_solution_of_another_style_is_named(messages):
     """The slip changes a part that our own solution does not have."""
     style = (
-        "\n# %% by_masks\n# Arrays and masks.\n"
+        "\n%% by_masks\nArrays and masks.\n"
         "def bounds(values, low, high):\n"
         "    import numpy as np\n\n"
         "    values = np.asarray(values)\n"

@@ -20,7 +20,7 @@ from urllib.parse import quote
 from PIL import Image
 
 from botschool.grading.declare.exercise import folder_of
-from botschool.grading.declare.mistakes import read_cases
+from botschool.grading.declare.mistakes import case_text, read_cases
 
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "tests"))
@@ -38,7 +38,7 @@ def work(number, at, draw):
     folder = folder_of(number, ROOT)
     (path,) = (ROOT / "solutions" / folder.name).glob("*.py")
     text = path.read_text()
-    cases = read_cases(number, (ROOT / f"tests/course/mutants/ex{number:02}.py").read_text())
+    cases = read_cases(number, case_text(ROOT, number))
     simple = [case for case in cases if case.code and "import" not in case.code and case.says]
     for case in draw.sample(simple[:6], (at * number) % 3):
         text = case.of(text)

@@ -33,7 +33,7 @@ from botschool.grading.declare.exercise import (
     load_exercise,
     make_state,
 )
-from botschool.grading.declare.mistakes import case_files
+from botschool.grading.declare.mistakes import case_file
 from botschool.grading.declare.secret import DEFAULT, VARIABLE
 from botschool.grading.judge.submission import SYNTAX, Result, grade
 from botschool.grading.run.confined import MachineFault, Unread, content_digest, machine_fault
@@ -295,11 +295,11 @@ def _versions(root: Path, number: Number) -> str:
         folder = folder_of(number, root)
         own += sorted(folder.glob("test_*.py"))
         own += sorted((root / "solutions" / folder.name).glob("*.py"))
-        own += case_files(root, number)
-    for path in (*sorted((IMPORT_ROOT / "botschool").rglob("*")), *own):
-        if path.suffix in (".py", ".so", ".pyd"):
-            status = path.stat()
-            stamps.append(f"{path} {status.st_size} {status.st_mtime_ns}")
+        own.append(case_file(root, number))
+    library = sorted((IMPORT_ROOT / "botschool").rglob("*"))
+    for path in (*(path for path in library if path.suffix in (".py", ".so", ".pyd")), *own):
+        status = path.stat() if path.exists() else None
+        stamps.append(f"{path} {status and (status.st_size, status.st_mtime_ns)}")
     return "\n".join(stamps)
 
 

@@ -17,7 +17,7 @@ from pathlib import Path
 from botschool.errors import BotschoolError
 from botschool.grading.copies.skeleton import find_leaks, pairs, skeleton
 from botschool.grading.declare.exercise import exercise_numbers, folder_of
-from botschool.grading.declare.mistakes import case_files
+from botschool.grading.declare.mistakes import case_text
 from botschool.grading.declare.trust import check_trusted, trust
 from botschool.grading.packed import PACKED, is_packed, pack, pack_answers, pack_module
 from botschool.output import written_whole
@@ -234,9 +234,7 @@ def _packed(grader: str, root: Path, folder: str) -> str:
     if is_packed(grader) or not file:
         return grader
     solution = (root / "solutions" / folder / file[1]).read_text(encoding="utf-8")
-    cases = case_files(root, int(folder[2:4]))
-    known = "\n".join(path.read_text(encoding="utf-8") for path in cases)
-    return pack(grader, solution, known)
+    return pack(grader, solution, case_text(root, int(folder[2:4])))
 
 
 def pack_measures(package: Path, target: Path) -> None:

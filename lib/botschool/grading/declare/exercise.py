@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from botschool.errors import BotschoolError, listed
-from botschool.grading.declare.mistakes import Known, case_files
+from botschool.grading.declare.mistakes import Known, case_text
 from botschool.grading.declare.picture import Picture
 from botschool.grading.declare.references import pruned
 from botschool.grading.declare.secret import DEFAULT, VARIABLE, grading_secret
@@ -290,8 +290,7 @@ def load_exercise(number: int, root: Path | None = None) -> Exercise:
     root = root or course_root()
     solution = root / "solutions" / folder.name / exercise.file
     if not exercise.known.solution and solution.is_file():
-        cases = [path.read_text(encoding="utf-8") for path in case_files(root, number)]
-        exercise.knows(solution.read_text(encoding="utf-8"), "\n".join(cases))
+        exercise.knows(solution.read_text(encoding="utf-8"), case_text(root, number))
     return exercise
 
 

@@ -1,24 +1,22 @@
-"""Read the known mistakes of an exercise: wrong solutions that prove its grader.
+"""Read the cases of an exercise: wrong answers that prove its grader, and right ones.
 
-tests/course/mutants/exNN.py holds an exercise's wrong solutions, tests/course/alternatives holds
-right ones in other styles. A case is a section of the file:
+tests/course/cases/exNN.txt holds them. A case is a section of the file:
 
-    # %% noise_of_the_first_only loses 16.2, 16.3
-    # Adds noise to the first sensor only.
-    # says: this
-    # -     noise = rng.normal(0, 0.1, len(sensors))
-    # +     noise = rng.normal(0, 0.1)
+    %% noise_of_the_first_only loses 16.2, 16.3 and says so
+    Adds noise to the first sensor only.
+    -     noise = rng.normal(0, 0.1, len(sensors))
+    +     noise = rng.normal(0, 0.1)
 
-The first line gives the name and the tasks that lose points; an alternative loses none. The second
+The first line gives the name and the tasks that lose points; a right answer loses none. The second
 line says what the code does wrong, as a sentence for the learner that begins with a verb: a grader
 prints it if a submission answers exactly as this case does (grading/judge/known.py). Lines with `-`
 are lines of the solution, which must hold them exactly once and without a gap; the lines with `+`
 replace them; the next `-` begins another change. Code that follows is put after the solution's
-functions and redefines them.
+functions and redefines them; there `_name` is the solution's function `name`.
 
-`says` is optional: what the message of the first of these tasks must say. `this` stands for the
-second line; anything else is a regular expression for the words of a check, or for the second line
-if the message has it.
+`and says so`: the message of the first of these tasks must hold the second line. A third line
+`says: WORDS`, a regular expression, asks for words of a check instead, or of the second line if the
+message has it.
 """
 
 from __future__ import annotations
@@ -29,11 +27,12 @@ from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
 
-CASES = ("tests/course/mutants", "tests/course/alternatives")
-"""Folders of wrong solutions, and of right ones in other styles; packed for students."""
+CASES = "tests/course/cases"
+"""Folder of the cases; packed for students."""
 THIS = "this"
-"""The word with which a case `says` its second line."""
-_TITLE = re.compile(r"(\w+)(?: loses (\d+\.\d+(?:, \d+\.\d+)*))?")
+"""What a case `says` that asks for its second line."""
+_TITLE = re.compile(r"(\w+)(?: loses (\d+\.\d+(?:, \d+\.\d+)*)( and says so)?)?")
+_HEAD = re.compile(r"(?:(?:says:|[-+])(?: .*)?\n)*")
 _IMPORT = re.compile(r"^\s*(import|from) ", re.MULTILINE)
 _MAIN = re.compile(r'^if __name__ == "__main__":', re.MULTILINE)
 
@@ -62,7 +61,7 @@ class Case:
             if solution.count("\n" + old) != 1:
                 raise ValueError(f"{self}: the solution must hold these lines exactly once:\n{old}")
             solution = solution.replace("\n" + old, "\n" + new)
-        return inserted(solution, self.code) if self.code else solution
+        return inserted(solution, _originals(self.code, solution)) if self.code else solution
 
 
 @dataclass(frozen=True)
@@ -90,10 +89,15 @@ class Known:
         return sorted(found, key=lambda c: (bool(_IMPORT.search(c.code)), c.loses.index(task)))
 
 
-def case_files(root: Path, number: int) -> list[Path]:
-    """Return the files of an exercise's cases; root: the course."""
-    paths = [root / folder / f"ex{number:02d}.py" for folder in CASES]
-    return [path for path in paths if path.is_file()]
+def case_file(root: Path, number: int) -> Path:
+    """Return the file of an exercise's cases; root: the course."""
+    return root / CASES / f"ex{number:02d}.txt"
+
+
+def case_text(root: Path, number: int) -> str:
+    """Return the text of an exercise's cases, "" if it has none."""
+    path = case_file(root, number)
+    return path.read_text(encoding="utf-8") if path.is_file() else ""
 
 
 def inserted(text: str, addition: str) -> str:
@@ -103,9 +107,21 @@ def inserted(text: str, addition: str) -> str:
     return f"{text[:at]}\n{addition}\n\n{text[at:]}"
 
 
+def _originals(code: str, solution: str) -> str:
+    """Return the code after lines that keep the solution's function `name` as `_name`."""
+    names = re.findall(r"^(?:def|class) (\w+)", solution, re.MULTILINE)
+    kept = [
+        f"_{name} = {name}\n"
+        for name in names
+        if re.search(rf"\b_{name}\b", code)
+        and not re.search(rf"^ *(?:(?:def|class) _{name}\b|_{name}\b[^(\n]*=)", code, re.MULTILINE)
+    ]
+    return "".join(kept) + code
+
+
 def read_cases(number: int, text: str, make: type[Case] = Case) -> list[Case]:
     """Return the cases of an exercise's file of cases. Raises ValueError."""
-    _, *parts = re.split(r"^# ?%% ?(.*)\n", text, flags=re.MULTILINE)
+    _, *parts = re.split(r"^%% (.*)\n", text, flags=re.MULTILINE)
     return [
         make(number, *_parts(f"exercise {number}", title, body))
         for title, body in zip(parts[::2], parts[1::2], strict=True)
@@ -116,21 +132,22 @@ def _parts(where: str, title: str, text: str) -> tuple:
     """Return the fields of a Case after its number; text: the section after its first line."""
     found = _TITLE.fullmatch(title)
     if not found:
-        raise ValueError(f"{where}: write '# %% NAME loses N.2, N.4', not '# %% {title}'")
-    name, loses = found.groups()
-    head = re.match(r"(?:#.*\n)*", text).group()
-    what, *lines = [line[2:] for line in head.splitlines()]
+        raise ValueError(f"{where}: write '%% NAME loses N.2, N.4', not '%% {title}'")
+    name, loses, so = found.groups()
+    what, _, text = text.partition("\n")
     if not re.match(r"\w", what):
         raise ValueError(f"{where}: {name}: the second line must say what is wrong or different")
-    says = [line[6:] for line in lines if line.startswith("says: ")]
-    edits = re.findall(r"^# ([-+])(?: (.*))?\n", head, re.MULTILINE)
-    if len(says) + len(edits) != len(lines):
-        raise ValueError(f"{where}: {name}: a comment must begin with says, - or +")
+    head = _HEAD.match(text).group()
+    lines = head.splitlines()
+    says = [THIS] if so else [line[6:] for line in lines if line.startswith("says: ")]
+    edits = [(line[0], f"{line[2:]}\n") for line in lines if line[0] in "-+"]
     changes = []
     for is_old, group in groupby(edits, key=lambda edit: edit[0] == "-"):
-        block = "".join(f"{line}\n" for _, line in group)
+        block = "".join(line for _, line in group)
         if is_old:
             changes.append((block, ""))
+        elif not changes:
+            raise ValueError(f"{where}: {name}: lines with + must follow lines with -")
         else:
             changes[-1] = (changes[-1][0], block)
     code = text[len(head) :].strip("\n")
