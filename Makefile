@@ -77,7 +77,7 @@ book: .venv/.tests .venv/.extra-book ## a website of the texts and documents in 
 solution-ex%: .venv/.module $$(call extras,$$*) FORCE ## run the solution of exercise N in results/exNN
 	@$(BIN)/botschool show $* --submission solutions
 
-# So much processor time, in equal shares: SECONDS=3600; some kinds of files: ONLY="ini wire"; one case again: CASE=12.
+# So much processor time, in equal shares: SECONDS=3600; some kinds of files: ONLY="ini genotype"; one case again: CASE=12.
 SECONDS ?= 60
 SEED ?= 1
 fuzz: .venv/.tests ## damage files of every kind that the command reads, SECONDS=60, and see what it says

@@ -3,6 +3,8 @@
 import json
 import re
 import sys
+from contextlib import closing
+from types import SimpleNamespace
 
 import numpy as np
 import psutil
@@ -10,16 +12,12 @@ import pytest
 
 from botschool.cluster.address import is_this_machine, place
 from botschool.errors import BotschoolError
-from botschool.evolution.algorithms.ascent import Ascent, Start
-from botschool.evolution.algorithms.drawing import draw
-from botschool.problems import Episodes
-from botschool.seeds import generator
+from botschool.problems import Episodes, Outcome
 from running import call, environment_of_command, finish, same, start, write_experiment
 
 pytest.importorskip("distributed")
 
-from botschool.cluster import Open, chunks, connection, wire, worker
-from botschool.cluster.members import Shelf
+from botschool.cluster import PATIENCE, chunks, connection, crew
 
 EVERYTHING = {"DASK_BOTSCHOOL__SHORTEST": "0"}
 """Even the shortest batches go to the workers."""
@@ -43,8 +41,7 @@ def test_acrobot_has_the_same_files_on_a_cluster(tmp_path):
     out = evolved(tmp_path / "two", path, "--cluster", "local:2", **EVERYTHING)
     assert same(tmp_path / "one", tmp_path / "two")
     assert len(re.findall(r"^worker tcp://127\.0\.0\.1:\d+: .* steps/s$", out, re.M)) == 2
-    bytes_ = int(re.search(r"evaluation \d+ %.*; (\d+) bytes a candidate", out)[1])
-    assert bytes_ < 1000
+    assert re.search(r"^time of the workers: evaluation \d+ %", out, re.M)
 
 
 def test_predators_and_prey_have_the_same_files_on_a_cluster(tmp_path):
@@ -94,104 +91,84 @@ def test_a_killed_worker_leaves_no_trace(tmp_path):
     assert len(workers) == 2 and same(tmp_path / "one", tmp_path / "two")
 
 
-@pytest.mark.parametrize("both", [True, False])
-def test_any_candidates_are_drawn_again_to_the_bit(both):
-    numbers = generator(7, 3)
-    numbers.integers(5)  # leaves half a word in the buffer
-    centres = generator(7, 4).standard_normal((2, 9))
-    deviation = 0.02 if both else np.linspace(0.1, 1, 9)
-    samples, candidates = draw(numbers, centres, 100, deviation, both)
-    again = wire.table(wire.packed(candidates.recipe[0]))
-    assert samples.shape == (2, 100, 9) and len(again) == len(candidates) == (400 if both else 200)
-    for rows in ([150, 151, 199], [3], range(len(candidates)), [0, 140, len(candidates) - 1]):
-        assert (again.rows(np.array(rows)) == candidates[list(rows)]).all()
-    assert candidates[:5].recipe is None and (candidates + 1).recipe is None
-    assert candidates.reshape(2, -1, 9).reshape(-1, 9).recipe == candidates.recipe
-    assert candidates.reshape(-1).recipe is None
-
-
-def test_an_ascent_is_followed_by_what_it_was_told(monkeypatch):
-    monkeypatch.setattr(worker, "_tables", {})
-    numbers = generator(7, 3)
-    centres, m = numbers.standard_normal((2, 3, 9))
-    stream = numbers.place
-    ascent = Ascent(Start(centres, m, np.abs(m), stream, 4, 0.02, 0.01, 1))
-    episodes = Episodes(np.array([[0, 20], [24, 24]], dtype=np.int32), *np.zeros((2, 2), dtype=int))
-    rows = {}
-    for step in range(4):
-        offspring = ascent.offspring()
-        batch = chunks.Batch([offspring, centres], None, episodes, 10)
-        request, tables = batch.message(slice(0, 2))
-        assert len(tables) == 1 + step + 1  # where it began, each fitness, and who is met
-        worker._tables.update({name: wire.table(data) for name, data in tables.items()})
-        rows[step] = request["parts"][0], offspring[[0, 20]]
-        ascent.climb(numbers.standard_normal((3, 8)))
-    for step in (1, 3, 0, 2):  # forward, and from the beginning again
-        part, ours = rows[step]
-        assert (worker._rows(wire.unpack(wire.pack(part))) == ours).all()
-
-
-def test_tables_that_were_used_last_are_kept():
-    shelf = Shelf(10)
-    for name in b"abc":
-        shelf.put(name, 3)
-    shelf.use([97])
-    shelf.put(100, 3)
-    assert shelf.trim() == [98] and 98 not in shelf and 97 in shelf
-
-
-def test_what_goes_over_the_wire_comes_back_and_code_does_not():
-    value = {"a": np.arange(100, dtype=np.uint64), "b": [1.5, "x", None, b"y"]}
-    back = wire.unpack(wire.pack(value))
-    assert (back["a"] == value["a"]).all() and back["a"].dtype == np.uint64
-    assert back["b"] == value["b"]
-    with pytest.raises(TypeError):
-        wire.pack({"a": print})
-    with pytest.raises(ValueError):
-        wire.unpack(wire.pack(np.array([print], dtype=object)))
+def workers(*paces):
+    """A crew without a connection, of ready workers with these paces."""
+    found = crew.Crew.__new__(crew.Crew)
+    found._native, found._least = False, 0.0
+    found._workers = {
+        str(number): crew.Worker(str(number), 1, ready=True, pace=pace)
+        for number, pace in enumerate(paces)
+    }
+    return found
 
 
 def test_chunks_cover_a_batch_once_and_keep_its_order():
     episodes = Episodes.of(np.arange(50), 3)
     genotypes = np.arange(100.0).reshape(50, 2)
-    batch = chunks.Batch([genotypes[:30], genotypes[30:]], None, episodes, 10)
-    quick, slow = chunks.Pace(1, 300.0, 1.0), chunks.Pace(1, 100.0, 1.0)
+    batch, these = chunks.Batch(genotypes, None, episodes, 10), workers(100.0, 300.0)
     taken = []
     while batch.waiting:
-        count = chunks.size(batch, len(taken) % 2, [slow, quick], [0.0, 0.0], False, 0.0)
-        taken.append(batch.take(count))
+        taken.append(these._next(these.ready[len(taken) % 2], batch))
     assert sum(chunk.stop - chunk.start for chunk in taken) == 150 and len(taken) > 4
     batch.give_back(taken[1])
     assert batch.take(1) == taken[1]
     for chunk in reversed(taken):
-        request, tables = batch.message(chunk)
-        sent = np.concatenate([part["sent"] for part in request["parts"] if "sent" in part])
-        if not tables:  # no part is sent whole
-            own = sent[request["candidate"]]
-            assert (own == genotypes[episodes.candidate[chunk]]).all()
+        sent, _, those, _ = batch.arguments(chunk)
+        assert (sent[those.candidate] == genotypes[episodes.candidate[chunk]]).all()
         steps = np.arange(chunk.start, chunk.stop, dtype=np.int32)
-        batch.enter(chunk, {"fitness": steps * 2.0, "steps": steps, "moments": None})
-    assert not batch.left and (batch.outcome().fitness == 2.0 * np.arange(150)).all()
+        assert not batch.over.is_set()
+        batch.enter(chunk, Outcome(steps * 2.0, steps))
+        batch.give_back(chunk)
+    assert batch.over.is_set() and not batch.waiting
+    assert (batch.outcome().fitness == 2.0 * np.arange(150)).all()
+
+
+def test_an_idle_worker_gets_a_late_chunk_too(monkeypatch):
+    """Late is three times the expected duration, and the second time twice that."""
+    now = 0.0
+    monkeypatch.setattr(chunks.time, "monotonic", lambda: now)
+    these, batch = workers(10.0, 10.0), chunks.Batch([], None, Episodes.of(np.arange(40), 1), 10)
+    one, two = these.ready
+    chunk = these._next(one, batch)
+    one.ahead = chunk.stop - chunk.start
+    rest = [these._next(two, batch) for _ in range(20) if batch.waiting]
+    for each in rest:
+        batch.enter(each, Outcome(np.zeros(each.stop - each.start), np.zeros(1, np.int32)))
+    for later, given in ((2.9, None), (0.2, chunk), (5.9, None), (0.2, chunk)):
+        now += later
+        assert these._next(one, batch) is None
+        assert these._next(two, batch) == given
+    assert list(batch.idle) == ["1"]
+
+
+def test_a_chunk_that_workers_do_not_survive_ends_the_evaluation():
+    batch = chunks.Batch([], None, Episodes.of(np.arange(40), 1), 10)
+    for _ in range(chunks.LOSSES):
+        assert not batch.over.is_set()
+        batch.give_back(batch.take(40))
+    assert batch.over.is_set()
+    with pytest.raises(BotschoolError, match="were lost 10 times"):
+        batch.outcome()
 
 
 def test_no_worker_is_given_more_than_its_share():
     """However many chunks it has at a time: whoever has more than that is waited for."""
-    batch = chunks.Batch([], None, Episodes.of(np.arange(800), 1), 10)
-    paces, ahead = [chunks.Pace(1, 300.0), chunks.Pace(1, 100.0)], [0.0, 0.0]
-    for number in (0, 1) * 4:
-        chunk = batch.take(chunks.size(batch, number, paces, ahead, False))
+    batch, these = chunks.Batch([], None, Episodes.of(np.arange(800), 1), 10), workers(300.0, 100.0)
+    ahead = [0, 0]
+    for number in (0, 1) * 2:
+        chunk = these._next(these.ready[number], batch)
         ahead[number] += chunk.stop - chunk.start
-    assert ahead[0] <= 600 and ahead[1] <= 200 and sum(ahead) > 700
+    assert ahead[0] <= 600 and ahead[1] <= 200 and sum(ahead) > 500
 
 
 def test_a_short_chunk_says_little_of_a_workers_speed():
-    pace = chunks.Pace(1)
-    pace.measured(200, 2000, 2.0)
-    assert pace.episodes == 100 and pace.steps == 1000
-    pace.measured(1, 10, 0.05)
-    assert 95 < pace.episodes < 99
-    pace.measured(20, 200, 10.0)
-    assert 2 < pace.episodes < 2.1 and 20 < pace.steps < 21
+    worker = crew.Worker("", 1)
+    worker.measured(200, 2000, 2.0)
+    assert worker.pace == 100 and worker.steps == 1000
+    worker.measured(1, 10, 0.05)
+    assert 95 < worker.pace < 99
+    worker.measured(20, 200, 10.0)
+    assert 2 < worker.pace < 2.1 and 20 < worker.steps < 21
 
 
 @pytest.mark.parametrize(
@@ -215,7 +192,7 @@ REFUSED = {
     "tcp://10.1.2.3:8786": "--no-tls",
     "local:0": "from 1 to",
     "local:two": "from 1 to",
-    "missing.json": "no file",
+    "missing.json": "No such file",
 }
 
 
@@ -258,8 +235,8 @@ def test_without_dask_it_says_what_to_install(tmp_path, refused, monkeypatch):
 @pytest.fixture(scope="module")
 def link():
     """A connection to a worker of its own."""
-    with Open("local:1", patience=6.0)(print) as cluster:
-        yield cluster._connection
+    with closing(connection.Connection(place("local:1"), PATIENCE, print)) as found:
+        yield found
 
 
 def test_local_workers_are_reached_from_this_machine_only(link):
@@ -270,9 +247,33 @@ def test_local_workers_are_reached_from_this_machine_only(link):
     assert heard == {"127.0.0.1"}
 
 
-def test_time_without_evaluation_is_not_the_schedulers_silence(link, monkeypatch):
-    before = connection.time.monotonic
-    link.refresh()
-    monkeypatch.setattr(connection.time, "monotonic", lambda: before() + 3600)
-    link.refresh()
-    assert link.answering and not link.lost
+def test_time_without_evaluation_is_not_the_schedulers_silence(monkeypatch):
+    told, now = [], 0.0
+    monkeypatch.setattr(crew.time, "monotonic", lambda: now)
+    link = SimpleNamespace(place="x", address="tcp://x:1", patience=60.0, heard=True, loop=None)
+    link.say = told.append
+    monkeypatch.setattr(crew.asyncio, "run_coroutine_threadsafe", lambda task, _: task.close())
+    these = crew.Crew(link, {}, None, False, 0.0)
+    these._workers["a"] = crew.Worker("a", 1, ready=True)
+    for wait, heard, says in (
+        (3600, False, ""),
+        *[(1, False, "")] * 9,
+        (1, False, "does not answer: waiting for it up to 60 seconds"),
+        (0.2, True, "is back"),
+    ):
+        now += wait
+        link.heard = heard
+        these._look()
+        assert says in "".join(told) and bool(told) == bool(says)
+        told.clear()
+    these._workers.clear()
+    for wait, says in ((0.2, ""), (1, ""), (1, ""), (1, "No workers at x yet: start one with")):
+        now += wait
+        link.heard = True
+        these._look()
+        assert says in "".join(told) and bool(told) == bool(says)
+    with pytest.raises(BotschoolError, match="For 60 seconds no worker at x has taken part"):
+        for _ in range(90):
+            now += 1
+            link.heard = True
+            these._look()

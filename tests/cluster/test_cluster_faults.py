@@ -3,6 +3,7 @@
 Schedulers and workers are Dask's own commands, on the loopback.
 """
 
+import json
 import random
 import re
 import sys
@@ -112,7 +113,7 @@ def undisturbed(tmp_path_factory):
 def test_the_probe_of_a_worker_has_an_environment_of_its_own(monkeypatch, tmp_path):
     """It breaks episodes off, which PyBullet's next one in the same world can show."""
     from botschool import problems
-    from botschool.cluster import wire, worker
+    from botschool.cluster import worker
     from botschool.config import to_dict
 
     asked = []
@@ -123,13 +124,11 @@ def test_the_probe_of_a_worker_has_an_environment_of_its_own(monkeypatch, tmp_pa
         problem.evaluate = lambda *rest: (asked.append(problem), evaluate(*rest))[1]
         return problem
 
-    own = experiment(tmp_path, "CartPole-v1", "OpenAI-ES")
+    own = json.dumps(to_dict(experiment(tmp_path, "CartPole-v1", "OpenAI-ES")))
     monkeypatch.setattr(problems, "of", of)
-    monkeypatch.setattr(worker, "_made", {})
-    monkeypatch.setattr(worker, "_tables", {b"own": wire.table(wire.pack(to_dict(own)))})
-    monkeypatch.setattr(worker, "_threads", lambda: 1)
-    worker._hello({"experiment": b"own", "files": {}})
-    [(evaluates, _)] = worker._made.values()
+    worker._made.cache_clear()
+    worker.hello({"experiment": own, "files": {}})
+    evaluates, _ = worker._made(own)
     assert asked and evaluates not in asked
 
 

@@ -1,6 +1,6 @@
 """Damage every kind of file that the command reads, and see that it refuses in a sentence.
 
-    python tests/fuzz SECONDS [--seed 1] [--only 'ini wire'] [--case 12]
+    python tests/fuzz SECONDS [--seed 1] [--only 'ini genotype'] [--case 12]
 
 Each kind gets the same share of SECONDS, which count processor time of damaged files. Kinds take
 turns, each in a process of its own with limits of memory and time; its preparation is not counted.

@@ -8,16 +8,12 @@ from __future__ import annotations
 
 import contextlib
 import json
-import random
 from pathlib import Path
-
-import numpy as np
 
 from botschool import config, problems
 from botschool.errors import BotschoolError
 from fuzz import classes, trainings
 from fuzz.kind import Kind
-from fuzz.mutate import damaged
 
 ROOT = Path(__file__).parents[2]
 EXPERIMENTS = ROOT / "data" / "experiments"
@@ -286,54 +282,6 @@ class Submission(Kind):
             submission.__exit__()  # its folder
 
 
-class Wire(Kind):
-    """Messages of a cluster: half of them with a checksum that is right."""
-
-    def valid(self) -> list[bytes]:
-        from botschool.cluster import wire
-
-        numbers = np.arange(100)
-        request = {
-            "parts": [{"sent": numbers[:90].reshape(10, 9) / 7}],
-            "candidate": numbers.astype(np.int32),
-            "seed": np.full(100, 5, dtype=np.uint64),
-            "needs": [b"name"],
-            "tables": {b"name": wire.pack(numbers / 3)},
-            "maxsteps": 10,
-        }
-        outcome = {
-            "fitness": numbers / 9,
-            "steps": numbers.astype(np.int32),
-            "moments": None,
-            "seconds": 0.1,
-        }
-        hello = {"version": "0.1.0", "threads": 2, "bits": b"12", "differs": ["a"]}
-        others = [{"lacks": [b"a"]}, {"sentence": "no."}, {"failure": "KeyError: 'a'"}]
-        return [wire.pack(each) for each in (request, outcome, hello, *others)]
-
-    def damage(self, valid: list[bytes], chance: random.Random) -> bytes:
-        from botschool.cluster import wire
-
-        data = damaged(valid, chance)
-        content = data[wire.CHECKSUM :]
-        return data if chance.random() < 0.3 else wire._checksum(content) + content
-
-    def read(self, path: Path) -> None:
-        from botschool.cluster import answers, wire, worker
-        from botschool.cluster.chunks import Batch
-        from botschool.problems import Episodes
-
-        data = path.read_bytes()
-        for function in (wire.unpack, wire.table):
-            with contextlib.suppress(ValueError):
-                function(data)
-        answers.read(worker._answer(data, lambda request: {"sentence": str(len(request))}))
-        with contextlib.suppress(ValueError):
-            answer = answers.read(data)
-            if "fitness" in answer:
-                Batch([], None, Episodes.of(np.arange(100), 1), 10).enter(slice(0, 100), answer)
-
-
 KINDS = {
     "ini": Ini,
     "genotype": Genotype,
@@ -357,7 +305,6 @@ KINDS = {
     "native-checkpoint": trainings.NativeCheckpoint,
     "notebook": Notebook,
     "submission": Submission,
-    "wire": Wire,
     "class": classes.ClassSettings,
     "roster": classes.ClassList,
     "export": classes.Download,

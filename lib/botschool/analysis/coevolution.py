@@ -185,7 +185,7 @@ def tournament(
         report.print_roles(contest.roles)
         print(_taking_part(chosen))
         if cluster:
-            contest.problem = stack.enter_context(cluster(print)).problem(experiment)
+            contest.problem = stack.enter_context(cluster.problem(experiment, print))
         tables = _tournament(contest, chosen)
     report.print_tournament(tables, [population.name for population in chosen])
     if files:

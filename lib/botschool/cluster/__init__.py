@@ -1,13 +1,12 @@
 """Evaluate on many machines by Dask (docs/specification.md, "On a cluster").
 
-`Open(TEXT)` opens a Cluster, whose `problem(experiment)` evaluates on its workers. Only then is
-Dask imported.
+`Open(TEXT).problem(experiment, say)` evaluates on a cluster's workers. Only then is Dask imported.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -15,31 +14,15 @@ from botschool.cluster.address import place
 from botschool.config import Experiment
 
 if TYPE_CHECKING:
-    from botschool.cluster.connection import Connection
     from botschool.cluster.problem import Distributed
 
 PATIENCE = 300.0
 """Default for the seconds to wait for workers, or for a scheduler that does not answer."""
 
 
-class Cluster:
-    """A connection to a scheduler, which makes problems that use it."""
-
-    def __init__(self, connection: Connection, patience: float, say: Callable[[str], None]) -> None:
-        self._connection, self._patience, self._say = connection, patience, say
-
-    def problem(self, experiment: Experiment) -> Distributed:
-        """Return the experiment's problem, evaluated on the workers. Raises BotschoolError."""
-        from botschool.cluster.problem import Distributed
-
-        return Distributed(experiment, self._connection, self._patience, self._say)
-
-
 @dataclass(frozen=True)
 class Open:
-    """A cluster as the user names it. Calling it with `say`, a function that gets messages for the
-    user, returns the context of the Cluster. Raises BotschoolError.
-    """
+    """A cluster as the user names it."""
 
     text: str
     """The value of --cluster."""
@@ -49,14 +32,14 @@ class Open:
     """Seconds to wait for workers, or for a scheduler that does not answer."""
 
     @contextmanager
-    def __call__(self, say: Callable[[str], None]) -> Iterator[Cluster]:
+    def problem(self, experiment: Experiment, say: Callable[[str], None]) -> Iterator[Distributed]:
+        """Yield the experiment's problem, evaluated on the workers. Raises BotschoolError.
+
+        say: called with messages for the user.
+        """
         found = place(self.text, self.unsafe)
         from botschool.cluster.connection import Connection
+        from botschool.cluster.problem import Distributed
 
-        connection = Connection(found, self.patience, say)
-        try:
-            if connection.dashboard:
-                say(f"Dask's dashboard: {connection.dashboard}")
-            yield Cluster(connection, self.patience, say)
-        finally:
-            connection.close()
+        with closing(Connection(found, self.patience, say)) as connection:
+            yield Distributed(experiment, connection)

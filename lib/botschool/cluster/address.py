@@ -80,18 +80,12 @@ def _loopback(number: str) -> bool:
 def _of_file(path: Path) -> str:
     """Return the address in a file that `dask scheduler --scheduler-file FILE` writes."""
     try:
-        address = json.loads(path.read_text())["address"]
-    except FileNotFoundError:
-        raise BotschoolError(
-            f"There is no file {path}: 'dask scheduler --scheduler-file {path}' writes it."
-        ) from None
+        return str(json.loads(path.read_text())["address"])
     except OSError as error:
-        raise BotschoolError(f"{path} cannot be read ({error.strerror or error}).") from None
+        why = error.strerror or error
     except (ValueError, KeyError, TypeError):
-        address = None
-    if not isinstance(address, str):
-        raise BotschoolError(
-            f"{path} is not a scheduler's file: 'dask scheduler --scheduler-file {path}' "
-            "writes one."
-        )
-    return address
+        why = "no address stands in it"
+    raise BotschoolError(
+        f"{path} is not a scheduler's file ({why}): 'dask scheduler --scheduler-file {path}' "
+        "writes one."
+    )

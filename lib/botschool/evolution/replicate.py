@@ -214,7 +214,7 @@ def replicate(experiment: Experiment, seeds: list[int], folder: Path, options: O
     with stoppable() as stopping, ExitStack() as stack:
         problem = None
         if options.cluster:
-            problem = stack.enter_context(options.cluster(_say)).problem(experiment)
+            problem = stack.enter_context(options.cluster.problem(experiment, _say))
         runs = [kind(experiment, seed, options.workers, stopping, problem) for seed in seeds[:1]]
         stack.enter_context(claimed(folder, seeds, options.resume, options.force))
         processes = min(options.workers, len(seeds))

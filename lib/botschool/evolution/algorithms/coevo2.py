@@ -28,7 +28,8 @@ from botschool.evolution.algorithm import (
     algorithm,
     generations_between_saves,
 )
-from botschool.evolution.algorithms.ascent import Ascent, Start
+from botschool.evolution.algorithms.drawing import draw
+from botschool.evolution.algorithms.openaies import climb
 from botschool.evolution.algorithms.sides import (
     PREDATORS,
     PREY,
@@ -104,12 +105,12 @@ def improve(
     meet(offspring, k) returns the fitness (rows) of the offspring of sub-generation k against each
     opponent (columns).
     """
-    rules = (config.samplesize, config.noiseStdDev, config.stepsize, config.wdecay)
     parameters, m, v = individuals
-    ascent = Ascent(Start(parameters, m, v, numbers.place, *rules))
     for k in range(SUB_GENERATIONS):
-        ascent.climb(means(meet(ascent.offspring(), k)).reshape(len(ascent.centres), -1))
-    return ascent.centres, ascent.m, ascent.v
+        samples, offspring = draw(numbers, parameters, config.samplesize, config.noiseStdDev)
+        fitness = means(meet(offspring, k)).reshape(len(parameters), -1)
+        parameters, m, v = climb(parameters, m, v, samples, fitness, config)
+    return parameters, m, v
 
 
 @algorithm("coevo2", "two competing populations", Coevo2Config, competitive=True)
