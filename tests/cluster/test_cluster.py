@@ -134,7 +134,7 @@ def test_an_idle_worker_gets_a_late_chunk_too(monkeypatch):
     rest = [these._next(two, batch) for _ in range(20) if batch.waiting]
     for each in rest:
         batch.enter(each, Outcome(np.zeros(each.stop - each.start), np.zeros(1, np.int32)))
-    for later, given in ((2.9, None), (0.2, chunk), (5.9, None), (0.2, chunk)):
+    for later, given in ((3.8, None), (0.2, chunk), (7.7, None), (0.2, chunk)):
         now += later
         assert these._next(one, batch) is None
         assert these._next(two, batch) == given
@@ -154,11 +154,11 @@ def test_a_chunk_that_workers_do_not_survive_ends_the_evaluation():
 def test_no_worker_is_given_more_than_its_share():
     """However many chunks it has at a time: whoever has more than that is waited for."""
     batch, these = chunks.Batch([], None, Episodes.of(np.arange(800), 1), 10), workers(300.0, 100.0)
-    ahead = [0, 0]
-    for number in (0, 1) * 2:
-        chunk = these._next(these.ready[number], batch)
-        ahead[number] += chunk.stop - chunk.start
-    assert ahead[0] <= 600 and ahead[1] <= 200 and sum(ahead) > 500
+    quick, slow = these.ready
+    for worker in (quick, slow) * 4:
+        chunk = these._next(worker, batch)
+        worker.ahead += chunk.stop - chunk.start
+    assert quick.ahead <= 600 and slow.ahead <= 200 and quick.ahead + slow.ahead > 700
 
 
 def test_a_short_chunk_says_little_of_a_workers_speed():

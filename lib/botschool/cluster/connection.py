@@ -59,7 +59,7 @@ class Connection:
     def __init__(self, place: Place, patience: float, say: Callable[[str], None]) -> None:
         self._place, self.patience, self.say = place, patience, say
         self._cluster: distributed.LocalCluster | None = None
-        self._client: distributed.Client | None = None
+        self._client: Any = None
         self.heard = False
         """Set when the scheduler answers."""
         for name in list(logging.root.manager.loggerDict):  # botschool's own messages report errors

@@ -9,7 +9,6 @@ import asyncio
 import time
 from collections import deque
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,13 +21,15 @@ from botschool.problems import Interrupted
 
 DEPTH = 2
 """Chunks that a worker has at a time, so that it need not wait for the next one."""
-SHARE = 0.5
+SHARE = 0.65
 """Size of a worker's next chunk, relative to its share of what is left."""
 FIRST = 0.1
 """The same before the worker's speed is known."""
 LANES = 16
 """Episodes that a thread computes in parallel; chunks of native problems are multiples of it."""
 TICK = 0.2
+"""Seconds between two checks whether the user wants to stop."""
+ASKING = 0.5
 """Seconds between two checks for new, lost and late workers."""
 LATE, SOONEST, UNKNOWN = 3.0, 1.0, 30.0
 """A chunk is late after this many times its expected duration, and this many seconds; or after
@@ -48,7 +49,8 @@ class Worker:
 
     address: str
     threads: int
-    serving: asyncio.Future | None = None
+    serving: Any = None
+    """The coroutine that serves it."""
     ready: bool = False
     """Whether it takes part."""
     left_out: str = ""
@@ -196,7 +198,8 @@ class Crew:
                 for address in members.keys() - self._workers.keys():
                     worker = self._workers[address] = Worker(address, members[address])
                     worker.serving = asyncio.ensure_future(self._serve(worker))
-            await asyncio.sleep(TICK)
+            self._work.set()  # a chunk may be late now
+            await asyncio.sleep(ASKING)
 
     async def _serve(self, worker: Worker) -> None:
         """Ask a worker what it is, and give it chunks if it can take part."""
@@ -235,11 +238,10 @@ class Crew:
         """Give a worker one chunk after another."""
         while worker.ready:
             batch = self._batch
-            chunk = batch and self._next(worker, batch)
+            chunk = self._next(worker, batch) if batch else None
             if batch is None or chunk is None:
                 self._work.clear()
-                with suppress(asyncio.TimeoutError):
-                    await asyncio.wait_for(self._work.wait(), TICK)
+                await self._work.wait()
                 continue
             count = chunk.stop - chunk.start
             worker.ahead += count
@@ -283,10 +285,14 @@ class Crew:
         known = [each for each in ready if each.pace]
         thread = sum(w.pace for w in known) / sum(w.threads for w in known) if known else 1.0
         total = sum(each.pace or thread * each.threads for each in ready)
-        share = untaken * (worker.pace or thread * worker.threads) / total
-        count = max(SHARE * share, self._least * worker.pace) if worker.pace else FIRST * share
+        share = (worker.pace or thread * worker.threads) / total
+        if worker.pace:
+            left = (untaken + sum(each.ahead for each in ready)) * share - worker.ahead
+            count = max(SHARE * left, self._least * worker.pace)
+        else:
+            count = FIRST * untaken * share
         lanes = LANES * worker.threads if self._native else 1
-        return max(1, round(count / lanes)) * lanes if count >= lanes / 2 else max(1, round(count))
+        return max(1, round(count / lanes)) * lanes
 
 
 def counted(number: int, what: str) -> str:
