@@ -212,9 +212,9 @@ def test_a_schedulers_file_is_read_and_checked(tmp_path):
         file.write_text(content)
         with pytest.raises(BotschoolError, match=says):
             place(str(file))
-    assert place(str(file), unsafe=True).address() == "tcp://10.1.2.3:1"
+    assert place(str(file), unsafe=True) == ("tcp://10.1.2.3:1", 0)
     file.write_text(json.dumps({"address": "tls://10.1.2.3:1"}))
-    assert place(str(file)).address() == "tls://10.1.2.3:1"
+    assert place(str(file)) == ("tls://10.1.2.3:1", 0)
 
 
 def test_options_that_do_not_go_together_are_refused(tmp_path, refused):
@@ -235,7 +235,7 @@ def test_without_dask_it_says_what_to_install(tmp_path, refused, monkeypatch):
 @pytest.fixture(scope="module")
 def link():
     """A connection to a worker of its own."""
-    with closing(connection.Connection(place("local:1"), PATIENCE, print)) as found:
+    with closing(connection.Connection("local:1", *place("local:1"), PATIENCE, print)) as found:
         yield found
 
 

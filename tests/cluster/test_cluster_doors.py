@@ -12,7 +12,6 @@ pytest.importorskip("distributed")
 
 from botschool import _core, problems
 from botschool.cluster import files
-from botschool.cluster.address import place
 from botschool.cluster.connection import Connection
 from botschool.cluster.worker import bits
 from clusters import Cluster, registered
@@ -124,7 +123,7 @@ def test_the_module_knows_what_it_was_compiled_from():
 def test_no_dashboard_is_named_where_there_is_none(tmp_path):
     with Cluster(tmp_path / "cluster") as cluster:  # --no-dashboard
         lines = []
-        Connection(place(cluster.address), 60.0, lines.append).close()
+        Connection("here", cluster.address, 0, 60.0, lines.append).close()
     assert lines == []
 
 

@@ -37,9 +37,9 @@ class Open:
 
         say: called with messages for the user.
         """
-        found = place(self.text, self.unsafe)
+        address, workers = place(self.text, self.unsafe)
         from botschool.cluster.connection import Connection
         from botschool.cluster.problem import Distributed
 
-        with closing(Connection(found, self.patience, say)) as connection:
+        with closing(Connection(self.text, address, workers, self.patience, say)) as connection:
             yield Distributed(experiment, connection)

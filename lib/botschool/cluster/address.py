@@ -6,7 +6,6 @@ import ipaddress
 import json
 import re
 import socket
-from dataclasses import dataclass
 from pathlib import Path
 
 from botschool.errors import BotschoolError
@@ -17,51 +16,33 @@ MOST = 1024
 """Largest number of workers for local:N."""
 
 
-@dataclass(frozen=True)
-class Place:
-    """An existing scheduler, or one to start here with `local` workers."""
+def place(text: str, unsafe: bool = False) -> tuple[str, int]:
+    """Return the address of the scheduler that --cluster names, or "" and the number of workers to
+    start on this machine. Raises BotschoolError.
 
-    text: str
-    """The user's text."""
-    local: int = 0
-    """Workers to start on this machine; 0 for an existing scheduler."""
-    unsafe: bool = False
-    """Whether the user allows a network without TLS."""
-
-    def address(self) -> str:
-        """Return the scheduler's present address; a scheduler's file may name another one tomorrow.
-
-        Raises BotschoolError if it is unreadable, or beyond this machine without TLS.
-        """
-        address = _of_file(Path(self.text)) if self.text.endswith(".json") else self.text
-        address = address if "://" in address else f"tcp://{address}"
-        match = re.fullmatch(r"(tcp|tls)://(\[[^]]+\]|[^:/\[\]]+):(\d{1,5})/?", address)
-        if match is None or not 0 < int(match[3]) < 65536:
-            raise BotschoolError(f"--cluster {shown(self.text)} is none of {FORMS}.")
-        protocol, host = match[1], match[2].strip("[]")
-        if protocol == "tcp" and not self.unsafe and not is_this_machine(host):
-            raise BotschoolError(
-                f"{address} is not this machine's own address and has no TLS, so anyone on "
-                "the network could run programs on the workers and here: start the scheduler "
-                "with TLS and give tls://HOST:PORT, or add --no-tls in a network that you "
-                "trust."
-            )
-        return address.rstrip("/")
-
-
-def place(text: str, unsafe: bool = False) -> Place:
-    """Return the place that --cluster names. Raises BotschoolError."""
+    unsafe: whether the user allows a network without TLS.
+    """
     if text.startswith("local:"):
         count = text.removeprefix("local:")
-        if not (count.isascii() and count.isdigit() and 1 <= int(count) <= MOST):
-            raise BotschoolError(
-                f"--cluster {shown(text)}: local: needs a number of workers from 1 to {MOST}, as "
-                "in local:2."
-            )
-        return Place(text, int(count))
-    found = Place(text, unsafe=unsafe)
-    found.address()
-    return found
+        if count.isascii() and count.isdigit() and 1 <= int(count) <= MOST:
+            return "", int(count)
+        raise BotschoolError(
+            f"--cluster {shown(text)}: local: needs a number of workers from 1 to {MOST}, as in "
+            "local:2."
+        )
+    address = _of_file(Path(text)) if text.endswith(".json") else text
+    address = address if "://" in address else f"tcp://{address}"
+    match = re.fullmatch(r"(tcp|tls)://(\[[^]]+\]|[^:/\[\]]+):(\d{1,5})/?", address)
+    if match is None or not 0 < int(match[3]) < 65536:
+        raise BotschoolError(f"--cluster {shown(text)} is none of {FORMS}.")
+    protocol, host = match[1], match[2].strip("[]")
+    if protocol == "tcp" and not unsafe and not is_this_machine(host):
+        raise BotschoolError(
+            f"{address} is not this machine's own address and has no TLS, so anyone on the network "
+            "could run programs on the workers and here: start the scheduler with TLS and give "
+            "tls://HOST:PORT, or add --no-tls in a network that you trust."
+        )
+    return address.rstrip("/"), 0
 
 
 def is_this_machine(host: str) -> bool:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import concurrent.futures
 import logging
 import multiprocessing
 import os
@@ -15,7 +14,6 @@ from multiprocessing import resource_tracker
 from typing import Any
 from urllib.request import ProxyHandler, build_opener
 
-from botschool.cluster.address import Place
 from botschool.errors import BotschoolError, said
 from botschool.terminal import SIGNALS, unheard
 
@@ -45,21 +43,24 @@ FROM_TERMINAL = [number for number in SIGNALS if number != signal.SIGTERM]
 """Signals that a terminal sends to all processes: Ctrl-C, and its end. SIGTERM must end workers."""
 LOGGERS = ("distributed", "tornado", "asyncio", "bokeh")
 
-Lost = concurrent.futures.CancelledError
-"""Raised for a task if the connection to the scheduler is lost."""
+
+class Lost(Exception):
+    """Raised for a task if the connection is lost."""
 
 
 class Connection:
     """A connection to one scheduler while a command runs.
 
-    patience: seconds that scheduler and workers may be away. say: called with messages for the
-    user.
+    place: the user's name for it; workers: how many to start here, with a scheduler, if there is no
+    address; patience: seconds that scheduler and workers may be away; say: called with messages for
+    the user.
     """
 
-    def __init__(self, place: Place, patience: float, say: Callable[[str], None]) -> None:
-        self._place, self.patience, self.say = place, patience, say
+    def __init__(
+        self, place: str, address: str, workers: int, patience: float, say: Callable[[str], None]
+    ) -> None:
+        self.place, self.address, self.patience, self.say = place, address, patience, say
         self._cluster: distributed.LocalCluster | None = None
-        self._client: Any = None
         self.heard = False
         """Set when the scheduler answers."""
         for name in list(logging.root.manager.loggerDict):  # botschool's own messages report errors
@@ -67,10 +68,8 @@ class Connection:
                 logging.getLogger(name).setLevel(logging.CRITICAL + 1)
         warnings.filterwarnings("ignore", module="distributed")
         dask.config.set(QUIET)
-        if place.local:
-            self._start(place.local)
-        self.address = self._cluster.scheduler_address if self._cluster else place.address()
-        """The scheduler's address."""
+        if workers:
+            self._start(workers)
         self._connect(ATTEMPT)
         if link := self._dashboard():
             say(f"Dask's dashboard: {link}")
@@ -79,19 +78,9 @@ class Connection:
             self._connect(max(patience, ATTEMPT))  # for so long, Dask tries to connect again
 
     @property
-    def place(self) -> str:
-        """Return the user's name for the cluster."""
-        return self._place.text
-
-    @property
     def open(self) -> bool:
         """Return whether there is a connection."""
         return self._client.status == "running"
-
-    @property
-    def loop(self) -> asyncio.AbstractEventLoop:
-        """Return the loop in which `members` and `submit` run."""
-        return self._client.loop.asyncio_loop
 
     async def members(self) -> dict[str, int] | None:
         """Return the threads of each worker by its address; None without an answer."""
@@ -105,7 +94,7 @@ class Connection:
         return found
 
     async def submit(self, worker: str, function: Callable, *arguments: Any) -> Any:
-        """Call a function on this worker, and again if it fails. Raises Lost, or its exception."""
+        """Call a function on this worker, and again if it fails. Raises its exception, or Lost."""
         if not self.open:
             raise Lost
         future = self._client.submit(
@@ -113,6 +102,10 @@ class Connection:
         )
         try:
             return await future
+        except Exception:
+            if future.status == "error":  # the function's own
+                raise
+            raise Lost from None
         finally:
             future.release()
 
@@ -130,6 +123,7 @@ class Connection:
                     memory_limit=0,
                     silence_logs=logging.CRITICAL + 1,
                 )
+            self.address = self._cluster.scheduler_address
         except Exception as error:
             raise BotschoolError(
                 f"--cluster {self.place} cannot start its workers ({said(error)}): -w {workers} "
@@ -140,12 +134,14 @@ class Connection:
         """Connect a new client. Raises BotschoolError."""
         try:
             with unheard(FROM_TERMINAL):
-                self._client = distributed.Client(
+                self._client: Any = distributed.Client(
                     self._cluster or self.address,
                     timeout=timeout,
                     set_as_default=False,
                     name="botschool",
                 )
+            self.loop = self._client.loop.asyncio_loop
+            """The loop in which `members` and `submit` run."""
         except Exception as error:
             trusted = (
                 " and the certificates of both sides (in Dask's settings distributed.comm.tls: "

@@ -282,15 +282,12 @@ class Crew:
     def _size(self, worker: Worker, untaken: int) -> int:
         """Return the size of a worker's next chunk, so that all workers end together."""
         ready = self.ready
-        known = [each for each in ready if each.pace]
-        thread = sum(w.pace for w in known) / sum(w.threads for w in known) if known else 1.0
-        total = sum(each.pace or thread * each.threads for each in ready)
-        share = (worker.pace or thread * worker.threads) / total
         if worker.pace:
+            share = worker.pace / sum(each.pace for each in ready)
             left = (untaken + sum(each.ahead for each in ready)) * share - worker.ahead
             count = max(SHARE * left, self._least * worker.pace)
         else:
-            count = FIRST * untaken * share
+            count = FIRST * untaken / len(ready)
         lanes = LANES * worker.threads if self._native else 1
         return max(1, round(count / lanes)) * lanes
 
