@@ -82,7 +82,7 @@ def invented_number(place, other):
     """A cell of the table."""
     lab = place.lab
     name = lab.conditions[-1].name
-    at = next(i for i, column in enumerate(lab.columns) if column.only(name))
+    at = next(i for i, column in enumerate(lab.columns) if name.startswith(column.only))
     row = [*place.sheet().row(name)]
     row[at] = re.sub(r"[-\d.]+", "-77777", row[at])
     line = f"| {name} | {' | '.join(row)} |"
@@ -94,29 +94,26 @@ def invented_number(place, other):
 
 def one_choice_against_its_data(place, other):
     """The first choice of the conclusion."""
-    kinds = {field.id: field.kind for field in place.lab.fields}
-    statement = next(s for s in place.lab.statements if kinds[s.field] == "choice")
+    statement = next(s for s in place.lab.statements if s.kind == "choice")
     contradict(place, [statement])
-    return FULL | {"conclusion": 25 - statement.points}, f"{place.lab.what(statement.field)}: "
+    return FULL | {"conclusion": 25 - statement.points}, f"{statement.what}: "
 
 
 def conclusions_against_their_data(place, other):
     """Every one."""
     contradict(place, place.lab.statements)
-    return FULL | {"conclusion": 0}, f"{place.lab.what(place.lab.statements[-1].field)}: "
+    return FULL | {"conclusion": 0}, f"{place.lab.statements[-1].what}: "
 
 
 def contradict(place, statements):
     """Answer what the student's own data do not support."""
     found = Check(place).all()
-    fields = {field.id: field for field in place.lab.fields}
-    for statement in statements:
-        field = fields[statement.field]
+    for field in statements:
         offered = re.findall(r"\[.\] (.+?)(?=   |$)", place.sheet().raw(field.id), re.M)
         if field.kind == "number":
             offered = np.linspace(field.low, field.high, 7)
 
-        def wrong(given, judge=statement.judge, id=field.id):
+        def wrong(given, judge=field.judge, id=field.id):
             right, _ = judge(found.data, found.answers | {id: given})
             return not right(given)
 
@@ -126,7 +123,9 @@ def contradict(place, statements):
 
 def cells(lab):
     """The condition of each cell of the table."""
-    return [c.name for c in lab.conditions for column in lab.columns if column.only(c.name)]
+    return [
+        c.name for c in lab.conditions for column in lab.columns if c.name.startswith(column.only)
+    ]
 
 
 def without(lab, *conditions, evidence):
@@ -282,7 +281,7 @@ def numbers_written_in_another_way(place, other):
     for condition in place.lab.conditions:
         row = place.sheet().row(condition.name)
         for at, column in enumerate(place.lab.columns):
-            if column.only(condition.name):
+            if condition.name.startswith(column.only):
                 count = 1 + (" to " in row[at])
                 numbers = numbers_in(row[at], "it", count)
                 shown = [f"{each:.7f}".replace("-", "\u2212") for each in numbers]

@@ -56,7 +56,7 @@ def test_three_honest_sheets_with_different_outcomes_get_all_points(number, stud
         told = [message for part in found.parts for message in part.messages]
         assert {part.name: part.points for part in found.parts} == FULL, told
         assert found.picture.startswith(b"\x89PNG")
-        answers = [str(found.answers[statement.field]) for statement in place.lab.statements]
+        answers = [str(found.answers[statement.id]) for statement in place.lab.statements]
         table = [cell for c in place.lab.conditions for cell in place.sheet().row(c.name)]
         outcomes.add((*answers, *table))
     assert len(outcomes) == 3

@@ -267,7 +267,7 @@ class Check:
     def _table(self) -> None:
         part = self.parts["measurements"]
         cells = [(c, col) for c in self.lab.conditions for col in self.lab.columns]
-        cells = [(c, col) for c, col in cells if col.only(c.name)]
+        cells = [(c, col) for c, col in cells if c.name.startswith(col.only)]
         if self.whole and self._empty():
             part.lose("The table is empty: python measure.py prints its rows.")
             return
@@ -337,14 +337,14 @@ class Check:
             return
         part.messages += self.sheet.values(self.lab.fields)[1]
         for statement in self.lab.statements:
-            what = self.lab.what(statement.field)
+            what = statement.what
             if not set(statement.needs) <= self.whole:
                 part.lose(f"{what}: its runs are missing or not proven.")
                 continue
-            if statement.field not in self.answers:
+            if statement.id not in self.answers:
                 continue
             right, told = statement.judge(self.data, self.answers)
-            if right(self.answers[statement.field]):
+            if right(self.answers[statement.id]):
                 part.points += statement.points
             else:
                 part.lose(f"{what}: {told}")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,7 @@ import numpy as np
 
 from botschool.config import Experiment, from_dict, to_dict
 from botschool.errors import BotschoolError
+from botschool.wrappers import keywords
 
 PARTS = {"prediction": 5, "runs": 25, "measurements": 25, "figure": 10, "conclusion": 25}
 """Points of each part that the check gives; the instructor gives up to WORDS more."""
@@ -28,6 +30,9 @@ Data = Mapping[str, Mapping[str, np.ndarray]]
 """Measurements: condition -> measure -> one value for each run."""
 Answers = Mapping[str, Any]
 """Readable fields of the sheet: id -> number, label of a choice, or text."""
+Judged = tuple[Callable[[Any], bool], str]
+"""Whether an answer is right; a sentence that says how to find the right one."""
+Judge = Callable[[Data, Answers], Judged]
 
 
 @dataclass(frozen=True)
@@ -44,6 +49,44 @@ class Condition:
     """Its place on the figure's horizontal axis."""
     kind: str = "evolving"
     """The module of botschool.labs that makes its runs: evolving or training."""
+
+    @classmethod
+    def of(
+        cls,
+        name: str,
+        environment: str,
+        policy: str,
+        algo: str,
+        by: str = "OpenAI-ES",
+        x: float = 0,
+        generations: int | None = None,
+        **more: Any,
+    ) -> Condition:
+        """Return a condition of runs that evolve.
+
+        policy, algo: settings, as in "episodes=1, bias=1". The hyperparameters of a strategy of the
+        student's become its options. by: the algorithm. more: further settings of [EXP].
+        """
+        told = keywords(algo)
+        if by.startswith(f"{STRATEGY}:"):
+            options = ", ".join(f"{k}={v:g}" for k, v in told.items() if k != "maxmsteps")
+            told = {"maxmsteps": told["maxmsteps"], "options": options}
+        exp = {"environment": environment, "algo": by} | more
+        experiment = {"exp": exp, "policy": keywords(policy), "algo": told}
+        return cls(name, experiment, generations, x)
+
+    @classmethod
+    def trained(
+        cls, name: str, environment: str, msteps: float, ppo: dict[str, Any], x: float, **more: Any
+    ) -> Condition:
+        """Return a condition of trainings by PPO. more: further parts of the experiment."""
+        experiment = {
+            "exp": {"environment": environment, "algo": "PPO"},
+            "policy": {"pepisodes": 20},
+            "algo": {"maxmsteps": msteps},
+            "ppo": ppo,
+        }
+        return cls(name, experiment | more, x=x, kind="training")
 
     @property
     def maker(self) -> Any:
@@ -77,7 +120,7 @@ class Condition:
 
 @dataclass(frozen=True)
 class Field:
-    """A field of the sheet."""
+    """A field of the sheet; one of the conclusion is right if the student's own data support it."""
 
     id: str
     kind: str
@@ -86,8 +129,37 @@ class Field:
     """What the field asks for, in the words of messages."""
     low: float = -np.inf
     high: float = np.inf
+    points: int = 0
+    needs: tuple[str, ...] = ()
+    """Names of the conditions whose runs the answer needs."""
+    judge: Judge | None = None
+    """Returns whether an answer is right, and a sentence on the data; None: it has no points."""
     words: int = 0
     """Smallest number of words of a text."""
+
+
+def number(
+    id: str,
+    what: str,
+    low: float,
+    high: float,
+    points: int = 0,
+    needs: tuple[str, ...] = (),
+    judge: Judge | None = None,
+) -> Field:
+    """Return a field for a number."""
+    return Field(id, "number", what, low, high, points, needs, judge)
+
+
+def choice(
+    id: str, what: str, points: int = 0, needs: tuple[str, ...] = (), judge: Judge | None = None
+) -> Field:
+    """Return a field of boxes, of which one is marked."""
+    return Field(id, "choice", what, points=points, needs=needs, judge=judge)
+
+
+WHY = Field("why", "text", "Why you predict this", words=10)
+"""The last field of each prediction."""
 
 
 @dataclass(frozen=True)
@@ -95,24 +167,38 @@ class Column:
     """A column of the sheet's table."""
 
     title: str
-    of: Callable[[Mapping[str, np.ndarray]], tuple[float, ...]]
-    """Measurements of a condition -> one number, or the two ends of an interval."""
-    tolerance: Callable[[tuple[float, ...]], float]
-    """Right numbers -> largest error allowed in each."""
-    only: Callable[[str], bool] = lambda condition: True
-    """Name of a condition -> whether its row has this column."""
+    statistic: Callable[[np.ndarray], Any]
+    """A function of an array: np.median, np.mean, np.sum, or interval."""
+    measure: str
+    """Name of a measure, or of two in the form "reported - fresh"."""
+    within: float
+    """Largest error allowed in each number."""
+    share: float = 0
+    """Share of the right number that is allowed beyond it; of an interval, INTERVAL counts."""
+    only: str = ""
+    """Beginning of the names of the conditions whose rows have this column."""
+    unit: float = 1
+
+    def of(self, values: Mapping[str, np.ndarray]) -> tuple[float, ...]:
+        """Return one number of a condition's measurements, or the two ends of an interval."""
+        found = np.atleast_1d(self.statistic(measured(self.measure, values)))
+        return tuple((found / self.unit).tolist())
+
+    def tolerance(self, true: tuple[float, ...]) -> float:
+        """Return the largest error allowed in each of the right numbers."""
+        if len(true) == 2:
+            return self.within + INTERVAL * (true[1] - true[0])
+        return self.within + self.share * abs(true[0])
 
 
-@dataclass(frozen=True)
-class Statement:
-    """A field of the conclusion; it is right if the student's own data support it."""
+INTERVAL = 0.3
+"""Share of an interval's length by which each of its ends may be off."""
 
-    field: str
-    points: int
-    needs: tuple[str, ...]
-    """Names of the conditions whose runs it needs."""
-    judge: Callable[[Data, Answers], tuple[Callable[[Any], bool], str]]
-    """Data, answers -> a function that tells whether an answer is right; a sentence on the data."""
+
+def measured(name: str, values: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Return a measure of each run, or the difference of two in the form "reported - fresh"."""
+    first, _, second = name.partition(" - ")
+    return values[first] - values[second] if second else values[first]
 
 
 @dataclass(frozen=True)
@@ -133,7 +219,6 @@ class Lab:
     """A laboratory."""
 
     number: int
-    title: str
     conditions: tuple[Condition, ...]
     predictions: tuple[Field, ...]
     fields: tuple[Field, ...]
@@ -145,7 +230,6 @@ class Lab:
     unseen: tuple[Condition, ...]
     """Conditions of the check's own runs, which measure.py has never seen."""
     columns: tuple[Column, ...]
-    statements: tuple[Statement, ...]
     figure: Figure
     rubric: tuple[str, ...]
     """Sentences for the instructor who grades the words."""
@@ -153,8 +237,8 @@ class Lab:
     """Word for what a run makes, in the plural, such as "hoppers"."""
     shown: tuple[str, ...]
     """Conditions whose best robot the report replays; only conditions that evolve."""
-    best: Callable[[Mapping[str, np.ndarray]], np.ndarray]
-    """Measurements of a condition -> a number for each run; the report replays the best run."""
+    best: str = ""
+    """The measure that is largest in the run that the report replays."""
     separate: Callable[[list[dict[str, float]]], str] = lambda measured: ""
     """Returns what is wrong with the measures of all unseen runs together; "" if nothing."""
     replications: int = 10
@@ -172,13 +256,24 @@ class Lab:
         """Return the name of its folder, such as lab09."""
         return f"lab{self.number:02}"
 
+    @cached_property
+    def page(self) -> str:
+        """Return labNN.md: the sheet, and after it the scripts that the student's folder gets."""
+        return Path(__file__).with_name(f"{self.name}.md").read_text(encoding="utf-8")
+
+    @property
+    def title(self) -> str:
+        """Return the question in the sheet's first line."""
+        return self.page.partition("\n")[0].partition(". ")[2]
+
+    @property
+    def statements(self) -> tuple[Field, ...]:
+        """Return the fields of the conclusion that earn points."""
+        return tuple(field for field in self.fields if field.judge)
+
     def condition(self, name: str) -> Condition:
         """Return the condition with this name."""
         return next(each for each in self.conditions if each.name == name)
-
-    def what(self, field: str) -> str:
-        """Return what messages call a field of the conclusion."""
-        return next(each.what for each in self.fields if each.id == field)
 
 
 def load_lab(number: str | int) -> Lab:

@@ -1,98 +1,150 @@
-"""Judge statements of a conclusion by the student's own data."""
+"""Ask for conclusions: fields of a sheet that the student's own data judge."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import Answers, Column, Data
-from botschool.labs.measuring import interval, paired_test, permutation_test, power
+from botschool.labs.declare import (
+    Answers,
+    Column,
+    Data,
+    Field,
+    Judge,
+    Judged,
+    choice,
+    measured,
+    number,
+)
+from botschool.labs.measuring import interval, permutation_test, power
 
-Judged = tuple[Callable[[Any], bool], str]
 CANNOT_TELL = "my runs cannot tell"
 LEVEL, NEAR = 0.05, (0.03, 0.07)
 """Two groups differ if p is below LEVEL; if p lies within NEAR, either answer is right."""
 FRESH = (
-    Column(
-        "median fitness in new episodes",
-        lambda values: (float(np.median(values["fresh"])),),
-        lambda true: 0.6 + 0.002 * abs(true[0]),
-    ),
-    Column(
-        "95 % interval",
-        lambda values: interval(values["fresh"]),
-        lambda true: 1 + 0.3 * (true[1] - true[0]),
-    ),
+    Column("median fitness in new episodes", np.median, "fresh", 0.6, 0.002),
+    Column("95 % interval", interval, "fresh", 1),
 )
 """Columns for the measure "fresh": fitness in new episodes."""
+RETURN = ("return", "fitness", "reward")
+"""Words for the unit of returns."""
+Test = Callable[[np.ndarray, np.ndarray], float]
+"""permutation_test or paired_test: returns the p of two groups."""
+
+
+def one_of(right: Iterable[Any], told: str) -> Judged:
+    """Judge an answer that must be one of these."""
+    found = set(right)
+    return lambda answer: answer in found, told
+
+
+def near(right: float, within: float, share: float, told: str) -> Judged:
+    """Judge a number that may differ by this, and by this share of it."""
+    return lambda answer: abs(answer - right) <= within + share * abs(right), told
+
+
+def groups(
+    data: Data, measure: str | tuple[str, str], conditions: tuple[str, ...]
+) -> list[np.ndarray]:
+    """Return two groups: a measure of two conditions, or two measures of one condition."""
+    measures = (measure,) if isinstance(measure, str) else measure
+    return [measured(each, data[name]) for name in conditions for each in measures]
 
 
 def larger(
-    measure: str, one: str, other: str, labels: tuple[str, str]
-) -> Callable[[Data, Answers], Judged]:
-    """Judge which of two conditions has the larger mean; labels: of `one` and of `other`."""
+    id: str,
+    what: str,
+    points: int,
+    measure: str | tuple[str, str],
+    conditions: tuple[str, ...],
+    labels: tuple[str, ...] = (),
+    test: Test = permutation_test,
+) -> Field:
+    """Ask which of two groups has the larger mean.
+
+    labels: the answers if the first one has, and if the second one has; () for their names.
+    """
 
     def judge(data: Data, answers: Answers) -> Judged:
-        a, b = data[one][measure], data[other][measure]
-        return decided(a, b, permutation_test(a, b), labels, "permutation test")
-
-    return judge
-
-
-def larger_of_pairs(
-    condition: str, one: str, other: str, labels: tuple[str, str]
-) -> Callable[[Data, Answers], Judged]:
-    """Judge which of two measures of the same runs has the larger mean."""
-
-    def judge(data: Data, answers: Answers) -> Judged:
-        a, b = data[condition][one], data[condition][other]
-        return decided(a, b, paired_test(a, b), labels, "paired test")
-
-    return judge
-
-
-def decided(a: np.ndarray, b: np.ndarray, p: float, labels: tuple[str, str], test: str) -> Judged:
-    """Return which label is right for this p, and a sentence; near LEVEL, two are right."""
-    winner = labels[0] if a.mean() > b.mean() else labels[1]
-    right = {winner} if p < LEVEL else {CANNOT_TELL}
-    if NEAR[0] < p < NEAR[1]:
-        right = {winner, CANNOT_TELL}
-    told = (
-        f"the {test} of your runs does not support this answer: compare the two means, and its p "
-        f"with {LEVEL}."
-    )
-    return lambda answer: answer in right, told
-
-
-def p_value(measure: str, one: str, other: str) -> Callable[[Data, Answers], Judged]:
-    """Judge the p of a permutation test of two conditions."""
-    return p_of(lambda data: permutation_test(data[one][measure], data[other][measure]))
-
-
-def p_of(test: Callable[[Data], float]) -> Callable[[Data, Answers], Judged]:
-    """Judge the p of a test of the data."""
-
-    def judge(data: Data, answers: Answers) -> Judged:
-        p = test(data)
-        return (
-            lambda answer: abs(answer - p) <= 0.01 + 0.2 * p,
-            "your runs give another p: compute it again.",
+        told = (
+            f"the {test.__name__.replace('_', ' ')} of your runs does not support this answer: "
+            f"compare the two means, and its p with {LEVEL}."
         )
+        return one_of(winners(*groups(data, measure, conditions), labels or conditions, test), told)
 
-    return judge
+    return choice(id, what, points, conditions, judge)
 
 
-def powerful(measure: str, one: str, other: str, runs: int) -> Callable[[Data, Answers], Judged]:
-    """Judge in how many of 100 cases groups of so many runs would differ significantly."""
+def winners(
+    a: np.ndarray, b: np.ndarray, labels: tuple[str, ...], test: Test = permutation_test
+) -> set[str]:
+    """Return the labels that are right on which group has the larger mean."""
+    p = test(a, b)
+    winner = labels[0] if a.mean() > b.mean() else labels[1]
+    if NEAR[0] < p < NEAR[1]:
+        return {winner, CANNOT_TELL}
+    return {winner} if p < LEVEL else {CANNOT_TELL}
+
+
+def p_value(
+    id: str,
+    what: str,
+    points: int,
+    measure: str | tuple[str, str],
+    conditions: tuple[str, ...],
+    test: Test = permutation_test,
+) -> Field:
+    """Ask for the p of a test of two groups."""
 
     def judge(data: Data, answers: Answers) -> Judged:
-        found = 100 * power(data[one][measure], data[other][measure], runs)
+        p = test(*groups(data, measure, conditions))
+        return near(p, 0.01, 0.2, "your runs give another p: compute it again.")
+
+    return number(id, what, 0, 1, points, conditions, judge)
+
+
+def powerful(
+    id: str, what: str, points: int, measure: str, conditions: tuple[str, ...], runs: int
+) -> Field:
+    """Ask in how many of 100 cases groups of so many runs would differ significantly."""
+
+    def judge(data: Data, answers: Answers) -> Judged:
+        found = 100 * power(*groups(data, measure, conditions), runs)
         told = f"resampling your runs, {runs} of each, gives another share: use power."
-        return lambda answer: abs(answer - found) <= 12, told
+        return near(found, 12, 0, told)
+
+    return number(id, what, 0, 100, points, conditions, judge)
+
+
+def mean_over(conditions: tuple[str, ...], measure: str, within: float, over: str) -> Judge:
+    """Judge the mean of a measure over all runs of these conditions; over: words for them."""
+
+    def judge(data: Data, answers: Answers) -> Judged:
+        found = np.concatenate([measured(measure, data[name]) for name in conditions]).mean()
+        return near(float(found), within, 0.02, f"compute the mean of {measure} over {over} again.")
 
     return judge
+
+
+def side(
+    ends: tuple[float, float], bound: float, labels: tuple[str, str], slack: float = 0
+) -> set[str]:
+    """Return the right answers on whether an interval lies above or below a bound.
+
+    labels: for above and for below. slack: by how much the bound may differ.
+    """
+    low, high = ends
+    return {
+        labels[0] if low > bound + off else labels[1] if high < bound - off else CANNOT_TELL
+        for off in (-slack, 0.0, slack)
+    }
+
+
+def mean_interval(values: np.ndarray) -> tuple[float, float]:
+    """Return the bootstrap interval of the mean."""
+    return interval(values, np.mean)
 
 
 def span(values: np.ndarray) -> tuple[float, float]:

@@ -2,13 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import Answers, Column, Condition, Data, Field, Figure, Lab, Statement
-from botschool.labs.judging import CANNOT_TELL, FRESH, Judged
+from botschool.labs.declare import (
+    WHY,
+    Answers,
+    Column,
+    Condition,
+    Data,
+    Figure,
+    Judge,
+    Judged,
+    Lab,
+    choice,
+    number,
+)
+from botschool.labs.judging import CANNOT_TELL, FRESH, RETURN, mean_over, near, one_of
 from botschool.labs.measuring import permutation_test, play_again
 
 
@@ -22,63 +33,44 @@ def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
     }
 
 
-BASE = "base"
-PROBLEMS: dict[str, dict[str, Any]] = {
-    "Acrobot": {"environment": "Acrobot-v1", "maxsteps": 500, "msteps": 1, "noise": 0.05},
-    "Pendulum": {"environment": "Pendulum-v1", "maxsteps": 200, "msteps": 2, "noise": 0.1},
+PROBLEMS = {"Acrobot": ("Acrobot-v1", 500, 1, 0.05), "Pendulum": ("Pendulum-v1", 200, 2, 0.1)}
+"""Environment, steps of an episode, million steps of a run, noiseStdDev."""
+CHANGES = {
+    "nhiddens": 40,
+    "episodes": 8,
+    "samplesize": 5,
+    "stepsize": 0.3,
+    "noiseStdDev": 0.02,
+    "wdecay": 1,
 }
-CHANGES: dict[str, dict[str, float]] = {
-    BASE: {},
-    "nhiddens": {"nhiddens": 40},
-    "episodes": {"episodes": 8},
-    "samplesize": {"samplesize": 5},
-    "stepsize": {"stepsize": 0.3},
-    "noiseStdDev": {"noiseStdDev": 0.02},
-    "wdecay": {"wdecay": 1},
-}
-SIX = tuple(name for name in CHANGES if name != BASE)
-LEVEL, NEAR = 0.05 / len(SIX), (0.005, 0.0125)
+NAMES = ("base", *CHANGES)
+LEVEL, NEAR = 0.05 / len(CHANGES), (0.005, 0.0125)
 """p below LEVEL counts with six tests; within NEAR either answer is right."""
 
 
 def condition(problem: str, change: str) -> Condition:
     """Return a condition: ten runs with one hyperparameter changed."""
-    told = PROBLEMS[problem]
-    policy: dict[str, Any] = {
-        "episodes": 2,
-        "pepisodes": 5,
-        "maxsteps": told["maxsteps"],
-        "nhiddens": 10,
-        "bias": 1,
-        "afunction": 2,
-    }
-    algo: dict[str, Any] = {
-        "maxmsteps": told["msteps"],
-        "samplesize": 20,
-        "stepsize": 0.05,
-        "noiseStdDev": told["noise"],
-        "wdecay": 0,
-    }
-    for key, value in CHANGES[change].items():
-        (policy if key in policy else algo)[key] = value
-    return Condition(
+    environment, steps, msteps, noise = PROBLEMS[problem]
+    made = Condition.of(
         f"{problem} {change}",
-        {
-            "exp": {"environment": told["environment"], "algo": "OpenAI-ES"},
-            "policy": policy,
-            "algo": algo,
-        },
-        x=float(list(CHANGES).index(change)),
+        environment,
+        f"episodes=2, pepisodes=5, maxsteps={steps}, nhiddens=10, bias=1, afunction=2",
+        f"maxmsteps={msteps}, samplesize=20, stepsize=0.05, noiseStdDev={noise}, wdecay=0",
+        x=float(NAMES.index(change)),
     )
+    for section in made.experiment.values():
+        if change in section:
+            section[change] = CHANGES[change]
+    return made
 
 
 def tests(data: Data, problem: str) -> dict[str, float]:
     """Return the p of each change against the base."""
-    base = data[f"{problem} {BASE}"]["fresh"]
-    return {name: permutation_test(data[f"{problem} {name}"]["fresh"], base) for name in SIX}
+    base = data[f"{problem} base"]["fresh"]
+    return {name: permutation_test(data[f"{problem} {name}"]["fresh"], base) for name in CHANGES}
 
 
-def strongest(problem: str) -> Callable[[Data, Answers], Judged]:
+def strongest(problem: str) -> Judge:
     """Judge which change has the smallest p, if that is small enough for six tests."""
 
     def judge(data: Data, answers: Answers) -> Judged:
@@ -89,7 +81,7 @@ def strongest(problem: str) -> Callable[[Data, Answers], Judged]:
         if NEAR[0] < least < NEAR[1]:
             right = winners | {CANNOT_TELL}
         told = f"look for the smallest of the six p; it must be below {LEVEL:.4f} to count."
-        return lambda answer: answer in right, told
+        return one_of(right, told)
 
     return judge
 
@@ -101,62 +93,39 @@ def count(data: Data, answers: Answers) -> Judged:
     return lambda answer: low <= answer <= high, f"count which of your six p are below {LEVEL:.4f}."
 
 
-def luck(data: Data, answers: Answers) -> Judged:
-    """Judge how much of the reported fitness is luck."""
-    runs = [data[f"Acrobot {name}"] for name in CHANGES]
-    found = float(np.concatenate([each["reported"] - each["fresh"] for each in runs]).mean())
-    told = "compute the mean of reported - fresh over all your Acrobot runs again."
-    return lambda answer: abs(answer - found) <= 0.2 + 0.02 * abs(found), told
-
-
 def episodes(data: Data, answers: Answers) -> Judged:
     """Judge how many episodes it takes to rank ten robots."""
-    runs = data[f"Pendulum {BASE}"]
+    runs = data["Pendulum base"]
     apart = max(float(runs["fresh"].std(ddof=1)), 1e-9)
     found = (4 * float(runs["spread"].mean()) / apart) ** 2
     told = "it is (4 x mean spread / standard deviation of fresh) squared, of the base's ten runs."
-    return lambda answer: abs(answer - found) <= 1.5 + 0.05 * found, told
+    return near(found, 1.5, 0.05, told)
 
 
-CONDITIONS = tuple(condition(problem, change) for problem in PROBLEMS for change in CHANGES)
-ACROBOT = tuple(c.name for c in CONDITIONS if c.name.startswith("Acrobot"))
-PENDULUM = tuple(c.name for c in CONDITIONS if c.name.startswith("Pendulum"))
+CONDITIONS = tuple(condition(problem, change) for problem in PROBLEMS for change in NAMES)
+ACROBOT, PENDULUM = (tuple(f"{problem} {name}" for name in NAMES) for problem in PROBLEMS)
+LUCK = mean_over(ACROBOT, "reported - fresh", 0.2, "all your Acrobot runs")
 LAB = Lab(
     number=4,
-    title="Which hyperparameters matter, and on which problem?",
     conditions=CONDITIONS,
     predictions=(
-        Field("first-acrobot", "choice", "What matters most on Acrobot"),
-        Field("first-pendulum", "choice", "What matters most on Pendulum"),
-        Field("luck-expected", "number", "How much of the reported fitness is luck", -500, 500),
-        Field("why", "text", "Why you predict this", words=10),
+        choice("first-acrobot", "What matters most on Acrobot"),
+        choice("first-pendulum", "What matters most on Pendulum"),
+        number("luck-expected", "How much of the reported fitness is luck", -500, 500),
+        WHY,
     ),
     fields=(
-        Field("acrobot", "choice", "What matters most on Acrobot"),
-        Field("pendulum", "choice", "What matters most on Pendulum"),
-        Field("count", "number", "How many matter on Pendulum", 0, 6),
-        Field("luck", "number", "What luck adds on Acrobot", -500, 500),
-        Field("episodes", "number", "The episodes that ranking takes", 0, 1e9),
+        choice("acrobot", "What matters most on Acrobot", 6, ACROBOT, strongest("Acrobot")),
+        choice("pendulum", "What matters most on Pendulum", 6, PENDULUM, strongest("Pendulum")),
+        number("count", "How many matter on Pendulum", 0, 6, 4, PENDULUM, count),
+        number("luck", "What luck adds on Acrobot", -500, 500, 4, ACROBOT, LUCK),
+        number("episodes", "The episodes that ranking takes", 0, 1e9, 5, PENDULUM[:1], episodes),
     ),
     measures={"reported": 1e-6, "fresh": 1e-3, "spread": 1e-3},
     reference=reference,
     unseen=(CONDITIONS[1], CONDITIONS[-1]),
-    columns=(
-        *FRESH,
-        Column(
-            "mean luck",
-            lambda values: (float((values["reported"] - values["fresh"]).mean()),),
-            lambda true: 0.2 + 0.01 * abs(true[0]),
-        ),
-    ),
-    statements=(
-        Statement("acrobot", 6, ACROBOT, strongest("Acrobot")),
-        Statement("pendulum", 6, PENDULUM, strongest("Pendulum")),
-        Statement("count", 4, PENDULUM, count),
-        Statement("luck", 4, ACROBOT, luck),
-        Statement("episodes", 5, PENDULUM[:1], episodes),
-    ),
-    figure=Figure("fresh", PENDULUM, ("return", "fitness", "reward")),
+    columns=(*FRESH, Column("mean luck", np.mean, "reported - fresh", 0.2, 0.01)),
+    figure=Figure("fresh", PENDULUM, RETURN),
     rubric=(
         "The reason of the prediction says what one of the hyperparameters does.",
         "The student says why six tests need a stricter limit than one.",
@@ -164,6 +133,6 @@ LAB = Lab(
     ),
     robot="evolutions",
     shown=("Acrobot base", "Pendulum base"),
-    best=lambda values: values["fresh"],
+    best="fresh",
     redone=10,
 )

@@ -7,8 +7,19 @@ from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import Answers, Column, Condition, Data, Field, Figure, Lab, Statement
-from botschool.labs.judging import CANNOT_TELL, Judged, larger, p_value
+from botschool.labs.declare import (
+    WHY,
+    Answers,
+    Column,
+    Condition,
+    Data,
+    Figure,
+    Judged,
+    Lab,
+    choice,
+    number,
+)
+from botschool.labs.judging import larger, mean_interval, one_of, p_value, side
 from botschool.labs.measuring import CYLINDER, forage, interval
 
 
@@ -49,22 +60,12 @@ SHARE = 0.8
 
 def condition(kind: str, msteps: float = 20) -> Condition:
     """Return a condition: Kheperas with this network."""
-    return Condition(
+    network = f"nhiddens=10, bias=1, architecture={KINDS[kind]}, out_type=2, winit=0"
+    return Condition.of(
         kind,
-        {
-            "exp": {"environment": "ErDiscrim", "algo": "OpenAI-ES"},
-            "policy": {
-                "episodes": 3,
-                "pepisodes": 25,
-                "maxsteps": 500,
-                "nhiddens": 10,
-                "bias": 1,
-                "architecture": KINDS[kind],
-                "out_type": 2,
-                "winit": 0,
-            },
-            "algo": {"maxmsteps": msteps, "samplesize": 20, "stepsize": 0.03, "noiseStdDev": 0.05},
-        },
+        "ErDiscrim",
+        f"episodes=3, pepisodes=25, maxsteps=500, {network}",
+        f"maxmsteps={msteps}, samplesize=20, stepsize=0.03, noiseStdDev=0.05",
         x=float(list(KINDS).index(kind)),
     )
 
@@ -95,8 +96,7 @@ def grouped(data: Data) -> list[list[set[int]]]:
 def counted(data: Data, answers: Answers) -> Judged:
     """Judge the number of families."""
     counts = [len(groups) for groups in grouped(data)]
-    told = "group the descriptors of your robots again, as the sheet says."
-    return lambda answer: answer in counts, told
+    return one_of(counts, "group the descriptors of your robots again, as the sheet says.")
 
 
 def mixed(data: Data, answers: Answers) -> Judged:
@@ -104,69 +104,41 @@ def mixed(data: Data, answers: Answers) -> Judged:
     first = set(range(len(data["LSTM"]["speed"])))
     found = [any(g & first and g - first for g in groups) for groups in grouped(data)]
     words = ["yes" if each else "no" for each in found]
-    return lambda answer: answer in words, "look again which robots each of your families has."
+    return one_of(words, "look again which robots each of your families has.")
 
 
 def share_lost(data: Data, answers: Answers) -> Judged:
     """Judge whether memory earns more than SHARE of the LSTMs' return."""
-    low, high = interval(data["LSTM"]["lost"], np.mean)
-    ends = {
-        "more" if low > SHARE + slack else "less" if high < SHARE - slack else CANNOT_TELL
-        for slack in (-0.015, 0.0, 0.015)
-    }
+    right = side(mean_interval(data["LSTM"]["lost"]), SHARE, ("more", "less"), slack=0.015)
     told = "compare 0.8 with the interval of the mean share that your LSTM robots lose."
-    return lambda answer: answer in ends, told
+    return one_of(right, told)
 
 
 BOTH = ("LSTM", "feed-forward")
 LAB = Lab(
     number=6,
-    title="How many ways are there to find a cylinder, and which need memory?",
     conditions=tuple(condition(kind) for kind in KINDS),
     predictions=(
-        Field("families-expected", "number", "How many families there are", 1, 20),
-        Field("better-expected", "choice", "Which kind earns more"),
-        Field("lost-expected", "number", "The share that is lost without memory", -10, 1),
-        Field("why", "text", "Why you predict this", words=10),
+        number("families-expected", "How many families there are", 1, 20),
+        choice("better-expected", "Which kind earns more"),
+        number("lost-expected", "The share that is lost without memory", -10, 1),
+        WHY,
     ),
     fields=(
-        Field("families", "number", "The number of families", 1, 20),
-        Field("mixed", "choice", "Whether a family has both kinds"),
-        Field("better", "choice", "Which kind earns more"),
-        Field("p", "number", "The p of the permutation test", 0, 1),
-        Field("lost", "choice", "What memory is worth"),
+        number("families", "The number of families", 1, 20, 6, BOTH, counted),
+        choice("mixed", "Whether a family has both kinds", 4, BOTH, mixed),
+        larger("better", "Which kind earns more", 5, "return", BOTH),
+        p_value("p", "The p of the permutation test", 4, "return", BOTH),
+        choice("lost", "What memory is worth", 6, ("LSTM",), share_lost),
     ),
     measures={"return": 1e-3, "lost": 1e-3} | dict.fromkeys(DESCRIPTORS, 1e-3),
     reference=reference,
     unseen=(condition("LSTM", 4), condition("feed-forward", 4)),
     columns=(
-        Column(
-            "median return",
-            lambda values: (float(np.median(values["return"])),),
-            lambda true: 0.6,
-        ),
-        Column(
-            "95 % interval",
-            lambda values: interval(values["return"]),
-            lambda true: 1 + 0.3 * (true[1] - true[0]),
-        ),
-        Column(
-            "median share lost",
-            lambda values: (float(np.median(values["lost"])),),
-            lambda true: 0.006,
-        ),
-        Column(
-            "median steps of the search",
-            lambda values: (float(np.median(values["search"])),),
-            lambda true: 0.6,
-        ),
-    ),
-    statements=(
-        Statement("families", 6, BOTH, counted),
-        Statement("mixed", 4, BOTH, mixed),
-        Statement("better", 5, BOTH, larger("return", *BOTH, BOTH)),
-        Statement("p", 4, BOTH, p_value("return", *BOTH)),
-        Statement("lost", 6, ("LSTM",), share_lost),
+        Column("median return", np.median, "return", 0.6),
+        Column("95 % interval", interval, "return", 1),
+        Column("median share lost", np.median, "lost", 0.006),
+        Column("median steps of the search", np.median, "search", 0.6),
     ),
     figure=Figure("turning", BOTH, ("rad",)),
     rubric=(
@@ -176,5 +148,5 @@ LAB = Lab(
     ),
     robot="Kheperas",
     shown=BOTH,
-    best=lambda values: values["return"],
+    best="return",
 )

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import Answers, Column, Condition, Field, Figure, Lab, Statement
+from botschool.labs.declare import WHY, Answers, Column, Condition, Figure, Lab, choice, number
 from botschool.labs.judging import FRESH, larger, p_value, powerful
 from botschool.labs.measuring import play_again
 
@@ -30,98 +30,57 @@ def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
 
 
 STEPS = {"hopper": (0.01, 0.03, 0.1), "Pendulum": (0.02, 0.1, 0.5)}
-PROBLEMS: dict[str, dict[str, Any]] = {
-    "hopper": {
-        "environment": "PlanarHopper-v5",
-        "msteps": 2,
-        "policy": {"episodes": 1, "pepisodes": 3, "maxsteps": 1000, "nhiddens": 50, "winit": 1}
-        | {"action_noise": 1},
-    },
-    "Pendulum": {
-        "environment": "Pendulum-v1",
-        "msteps": 4,
-        "policy": {"episodes": 3, "pepisodes": 3, "maxsteps": 200, "nhiddens": 10},
-    },
+NETWORK = "bias=1, afunction=2, out_type=3"
+PROBLEMS = {
+    "hopper": (
+        "PlanarHopper-v5",
+        f"episodes=1, pepisodes=3, maxsteps=1000, nhiddens=50, winit=1, action_noise=1, {NETWORK}",
+        2,
+    ),
+    "Pendulum": (
+        "Pendulum-v1",
+        f"episodes=3, pepisodes=3, maxsteps=200, nhiddens=10, {NETWORK}",
+        4,
+    ),
 }
+"""Environment, settings of the policy, million steps of a run."""
 
 
-def condition(problem: str, step: float, own: bool = False) -> Condition:
-    """Return a condition: this step size, with the student's own strategy or OpenAI-ES."""
-    told = PROBLEMS[problem]
-    algo: dict[str, Any] = {"maxmsteps": told["msteps"]}
-    if own:
-        algo["options"] = f"stepsize={step:g}, noiseStdDev=0.05, samplesize=20"
-    else:
-        algo |= {"stepsize": step, "noiseStdDev": 0.05, "samplesize": 20}
-    name = "strategy:evolve" if own else "OpenAI-ES"
-    network = {"bias": 1, "afunction": 2, "out_type": 3}
-    return Condition(
-        f"{problem} {step:g}",
-        {
-            "exp": {"environment": told["environment"], "algo": name},
-            "policy": told["policy"] | network,
-            "algo": algo,
-        },
-        x=step,
-    )
+def condition(problem: str, step: float, by: str = "OpenAI-ES") -> Condition:
+    """Return a condition: this step size; by: the algorithm."""
+    environment, policy, msteps = PROBLEMS[problem]
+    algo = f"maxmsteps={msteps}, stepsize={step:g}, noiseStdDev=0.05, samplesize=20"
+    return Condition.of(f"{problem} {step:g}", environment, policy, algo, by, step)
 
 
 HOPPER = tuple(f"hopper {step:g}" for step in STEPS["hopper"])
-PENDULUM = tuple(f"Pendulum {step:g}" for step in STEPS["Pendulum"])
+ENDS, SMALL, LONG = ("hopper 0.01", "hopper 0.1"), HOPPER[:2], ("Pendulum 0.1", "Pendulum 0.5")
 LAB = Lab(
     number=8,
-    title="How long may the steps be?",
-    conditions=tuple(
-        condition(problem, step, own=problem == "hopper")
-        for problem, steps in STEPS.items()
-        for step in steps
+    conditions=(
+        *(condition("hopper", step, "strategy:evolve") for step in STEPS["hopper"]),
+        *(condition("Pendulum", step) for step in STEPS["Pendulum"]),
     ),
     predictions=(
-        Field("best-hopper", "choice", "The best step size of the hopper"),
-        Field("best-pendulum", "choice", "The best step size of Pendulum"),
-        Field("severe", "number", "Severe regressions with step size 0.1", 0, 10),
-        Field("why", "text", "Why you predict this", words=10),
+        choice("best-hopper", "The best step size of the hopper"),
+        choice("best-pendulum", "The best step size of Pendulum"),
+        number("severe", "Severe regressions with step size 0.1", 0, 10),
+        WHY,
     ),
     fields=(
-        Field("drops", "choice", "The hopper's drops"),
-        Field("hopper", "choice", "The hopper's fitness"),
-        Field("p-hopper", "number", "The hopper's p", 0, 1),
-        Field("power", "number", "What five runs would find", 0, 100),
-        Field("pendulum", "choice", "Pendulum's fitness"),
+        larger("drops", "The hopper's drops", 5, "drop", ENDS, ("0.01", "0.1")),
+        larger("hopper", "The hopper's fitness", 5, "fresh", SMALL, ("0.01", "0.03")),
+        p_value("p-hopper", "The hopper's p", 4, "fresh", SMALL),
+        powerful("power", "What five runs would find", 6, "fresh", SMALL, 5),
+        larger("pendulum", "Pendulum's fitness", 5, "fresh", LONG, ("0.1", "0.5")),
     ),
     measures={"drop": 1e-4, "severe": 1e-6, "fresh": 1e-3},
     reference=reference,
     unseen=(condition("hopper", 0.1), condition("Pendulum", 0.5)),
     columns=(
-        Column(
-            "median drop",
-            lambda values: (float(np.median(values["drop"])),),
-            lambda true: 0.006,
-        ),
-        Column("severe", lambda values: (float(values["severe"].sum()),), lambda true: 0.01),
+        Column("median drop", np.median, "drop", 0.006),
+        Column("severe", np.sum, "severe", 0.01),
         *FRESH,
-    ),
-    statements=(
-        Statement(
-            "drops",
-            5,
-            (HOPPER[0], HOPPER[2]),
-            larger("drop", HOPPER[0], HOPPER[2], ("0.01", "0.1")),
-        ),
-        Statement(
-            "hopper",
-            5,
-            (HOPPER[0], HOPPER[1]),
-            larger("fresh", HOPPER[0], HOPPER[1], ("0.01", "0.03")),
-        ),
-        Statement("p-hopper", 4, (HOPPER[0], HOPPER[1]), p_value("fresh", HOPPER[0], HOPPER[1])),
-        Statement("power", 6, (HOPPER[0], HOPPER[1]), powerful("fresh", HOPPER[0], HOPPER[1], 5)),
-        Statement(
-            "pendulum",
-            5,
-            (PENDULUM[1], PENDULUM[2]),
-            larger("fresh", PENDULUM[1], PENDULUM[2], ("0.1", "0.5")),
-        ),
     ),
     figure=Figure("drop", HOPPER, ("drop", "share", "height")),
     rubric=(
@@ -130,8 +89,8 @@ LAB = Lab(
         "The student says why the best robot of a run hides what its curve shows.",
     ),
     robot="evolutions",
-    shown=(HOPPER[0], HOPPER[2]),
-    best=lambda values: values["fresh"],
+    shown=ENDS,
+    best="fresh",
     redone=8,
     strategy="ex08_openai_es/openai_es.py",
 )

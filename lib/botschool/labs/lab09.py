@@ -6,9 +6,20 @@ from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import Answers, Column, Condition, Data, Field, Figure, Lab, Statement
-from botschool.labs.judging import CANNOT_TELL, Judged, larger, p_value, span
-from botschool.labs.measuring import interval, record
+from botschool.labs.declare import (
+    WHY,
+    Answers,
+    Column,
+    Condition,
+    Data,
+    Figure,
+    Judged,
+    Lab,
+    choice,
+    number,
+)
+from botschool.labs.judging import larger, near, one_of, p_value, side, span
+from botschool.labs.measuring import RESAMPLES, interval, record
 
 
 def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
@@ -28,40 +39,20 @@ NEVER = 0.3
 """The tipping point if no bonus makes more than half of the hoppers statues."""
 NEARLY = 0.02
 """Largest uncertainty of the tipping point that counts as known."""
-FIRST, LAST = "bonus 0", "bonus 0.2"
-POLICY = {
-    "episodes": 1,
-    "pepisodes": 3,
-    "maxsteps": 1000,
-    "nhiddens": 10,
-    "bias": 1,
-    "afunction": 2,
-    "out_type": 3,
-    "winit": 1,
-    "action_noise": 1,
-}
-ALGO = {"stepsize": 0.03, "noiseStdDev": 0.05, "samplesize": 20, "wdecay": 1}
+ENDS = ("bonus 0", "bonus 0.2")
 
 
-def condition(bonus: float, own: bool = False) -> Condition:
-    """Return a condition: hoppers with this bonus, by the student's strategy or OpenAI-ES."""
-    algo: dict[str, Any] = {"maxmsteps": 4}
-    if own:
-        algo["options"] = ", ".join(f"{key}={value:g}" for key, value in ALGO.items())
-    else:
-        algo |= ALGO
-    return Condition(
+def condition(bonus: float, by: str = "OpenAI-ES") -> Condition:
+    """Return a condition: hoppers with this bonus; by: the algorithm."""
+    network = "nhiddens=10, bias=1, afunction=2, out_type=3, winit=1, action_noise=1"
+    return Condition.of(
         f"bonus {bonus:g}",
-        {
-            "exp": {
-                "environment": "PlanarHopper-v5",
-                "algo": "strategy:evolve" if own else "OpenAI-ES",
-                "options": f"alive={bonus:g}",
-            },
-            "policy": POLICY,
-            "algo": algo,
-        },
-        x=bonus,
+        "PlanarHopper-v5",
+        f"episodes=1, pepisodes=3, maxsteps=1000, {network}",
+        "maxmsteps=4, stepsize=0.03, noiseStdDev=0.05, samplesize=20, wdecay=1",
+        by,
+        bonus,
+        options=f"alive={bonus:g}",
     )
 
 
@@ -92,18 +83,17 @@ def tipping_interval(data: Data) -> tuple[float, float]:
     shares = []
     for bonus in BONUSES:
         statues = data[f"bonus {bonus:g}"]["statue"]
-        chosen = rng.integers(len(statues), size=(10_000, len(statues)))
+        chosen = rng.integers(len(statues), size=(RESAMPLES, len(statues)))
         shares.append(statues[chosen].mean(axis=1))
     return span(tipping_point(np.stack(shares, axis=-1)))
 
 
 def against_prediction(data: Data, answers: Answers) -> Judged:
     """Judge whether the tipping point lies below or above the prediction."""
-    low, high = tipping_interval(data)
     predicted = answers.get("tipping", NEVER)
-    right = "below" if high < predicted else "above" if low > predicted else CANNOT_TELL
+    right = side(tipping_interval(data), predicted, ("above", "below"))
     told = "compare your prediction with the interval of your resampled tipping points."
-    return lambda answer: answer == right, told
+    return one_of(right, told)
 
 
 def shown(data: Data) -> float:
@@ -114,61 +104,41 @@ def shown(data: Data) -> float:
 
 def observed(data: Data, answers: Answers) -> Judged:
     """Judge the tipping point that the runs show."""
-    found = shown(data)
-    return (
-        lambda answer: abs(answer - found) < 0.005,
-        "read it off your table: its least bonus with more than five statues.",
-    )
+    told = "read it off your table: its least bonus with more than five statues."
+    return near(shown(data), 0.005, 0, told)
 
 
 def enough(data: Data, answers: Answers) -> Judged:
     """Judge whether ten runs fix the tipping point to +- NEARLY."""
     low, high = tipping_interval(data)
     right = "yes" if high - low <= 2 * NEARLY + 1e-9 else "no"
-    return lambda answer: answer == right, "look how far apart the ends of your interval are."
-
-
-def median(values: Any) -> tuple[float, ...]:
-    """Return the median of the metres."""
-    return (float(np.median(values["metres"])),)
+    return one_of([right], "look how far apart the ends of your interval are.")
 
 
 ALL = tuple(f"bonus {bonus:g}" for bonus in BONUSES)
 LAB = Lab(
     number=9,
-    title="How much reward for standing still makes a statue?",
-    conditions=tuple(condition(bonus, own=True) for bonus in BONUSES),
+    conditions=tuple(condition(bonus, "strategy:evolve") for bonus in BONUSES),
     predictions=(
-        Field("tipping", "number", "The bonus at which it tips", 0, NEVER),
-        Field("both", "choice", "Whether some do both"),
-        Field("why", "text", "Why you predict this", words=10),
+        number("tipping", "The bonus at which it tips", 0, NEVER),
+        choice("both", "Whether some do both"),
+        WHY,
     ),
     fields=(
-        Field("rule", "number", "The rule for statues", 0.5, 20),
-        Field("observed", "number", "The tipping point of your runs", 0, NEVER),
-        Field("against", "choice", "The tipping point and your prediction"),
-        Field("further", "choice", "Which hoppers go further"),
-        Field("p", "number", "The p of the permutation test", 0, 1),
-        Field("enough", "choice", "Whether ten runs are enough"),
+        number("rule", "The rule for statues", 0.5, 20),
+        number("observed", "The tipping point of your runs", 0, NEVER, 5, ALL, observed),
+        choice("against", "The tipping point and your prediction", 6, ALL, against_prediction),
+        larger("further", "Which hoppers go further", 5, "metres", ENDS),
+        p_value("p", "The p of the permutation test", 4, "metres", ENDS),
+        choice("enough", "Whether ten runs are enough", 5, ALL, enough),
     ),
     measures={"metres": 0.01, "ground": 0.01, "statue": 0.01},
     reference=reference,
     unseen=(condition(0.0), condition(1.0)),
     columns=(
-        Column("median metres", median, lambda true: 0.06 + 0.01 * abs(true[0])),
-        Column(
-            "95 % interval",
-            lambda values: interval(values["metres"]),
-            lambda true: 0.1 + 0.3 * (true[1] - true[0]),
-        ),
-        Column("statues", lambda values: (float(values["statue"].sum()),), lambda true: 0.01),
-    ),
-    statements=(
-        Statement("observed", 5, ALL, observed),
-        Statement("against", 6, ALL, against_prediction),
-        Statement("further", 5, (FIRST, LAST), larger("metres", FIRST, LAST, (FIRST, LAST))),
-        Statement("p", 4, (FIRST, LAST), p_value("metres", FIRST, LAST)),
-        Statement("enough", 5, ALL, enough),
+        Column("median metres", np.median, "metres", 0.06, 0.01),
+        Column("95 % interval", interval, "metres", 0.1),
+        Column("statues", np.sum, "statue", 0.01),
     ),
     figure=Figure(
         "metres",
@@ -182,8 +152,8 @@ LAB = Lab(
         "The student says what the experiment cannot show.",
     ),
     robot="hoppers",
-    shown=(FIRST, LAST),
-    best=lambda values: values["metres"],
+    shown=ENDS,
+    best="metres",
     separate=separate,
     redone=8,
     strategy="ex08_openai_es/openai_es.py",

@@ -2,14 +2,27 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import Answers, Column, Condition, Data, Field, Figure, Lab, Statement
-from botschool.labs.judging import CANNOT_TELL, LEVEL, NEAR, Judged, larger, p_value
-from botschool.labs.measuring import permutation_test, play_again, seconds_per_million
+from botschool.labs.declare import (
+    WHY,
+    Answers,
+    Column,
+    Condition,
+    Data,
+    Figure,
+    Judged,
+    Lab,
+    choice,
+    number,
+)
+from botschool.labs.judging import larger, one_of, p_value, winners
+from botschool.labs.measuring import play_again, seconds_per_million
+from botschool.wrappers import keywords
 
 GOALS = {"dense": -200.0, "sparse": 90.0, "long": 1000.0}
 
@@ -25,83 +38,51 @@ def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
     }
 
 
-PROBLEMS: dict[str, dict[str, Any]] = {
-    "dense": {"environment": "Pendulum-v1", "maxsteps": 200, "steps": {"ES": 6, "PPO": 0.15}},
-    "sparse": {
-        "environment": "MountainCarContinuous-v0",
-        "maxsteps": 999,
-        "steps": {"ES": 0.3, "PPO": 0.3},
-    },
-    "long": {"environment": "PlanarHopper-v5", "maxsteps": 1000, "steps": {"ES": 1, "PPO": 1}},
+PROBLEMS = {
+    "dense": ("Pendulum-v1", 200, 10),
+    "sparse": ("MountainCarContinuous-v0", 999, 10),
+    "long": ("PlanarHopper-v5", 1000, 20),
 }
+"""Environment, steps of an episode, hidden neurons."""
 ES = {
-    "dense": {"stepsize": 0.1, "noiseStdDev": 0.1, "wdecay": 0},
-    "sparse": {"stepsize": 0.03, "noiseStdDev": 0.3, "wdecay": 0},
-    "long": {"stepsize": 0.03, "noiseStdDev": 0.05, "wdecay": 0},
+    "dense": "maxmsteps=6, samplesize=20, stepsize=0.1, noiseStdDev=0.1, wdecay=0",
+    "sparse": "maxmsteps=0.3, samplesize=20, stepsize=0.03, noiseStdDev=0.3, wdecay=0",
+    "long": "maxmsteps=1, samplesize=20, stepsize=0.03, noiseStdDev=0.05, wdecay=0",
 }
-PPO: dict[str, dict[str, Any]] = {
-    "dense": {"n_envs": 16, "n_steps": 128, "batch_size": 128, "gamma": 0.95},
-    "sparse": {"n_envs": 8, "n_steps": 512, "batch_size": 128, "gamma": 0.99},
-    "long": {"n_envs": 32, "n_steps": 256, "batch_size": 256, "gamma": 0.999, "n_epochs": 5},
+PPO = {
+    "dense": (
+        0.15,
+        "n_envs=16, n_steps=128, batch_size=128, gamma=0.95, learning_rate=0.001, normalize=True",
+    ),
+    "sparse": (
+        0.3,
+        "n_envs=8, n_steps=512, batch_size=128, gamma=0.99, learning_rate=0.0003, normalize=True",
+    ),
+    "long": (
+        1,
+        "n_envs=32, n_steps=256, batch_size=256, gamma=0.999, n_epochs=5, learning_rate=0.0006, "
+        "normalize=True, log_std_init=-0.5",
+    ),
 }
-RATES = {"dense": 0.001, "sparse": 0.0003, "long": 0.0006}
+"""Million steps of a run, settings."""
 METHODS = ("evolution", "gradient")
 
 
 def evolution(problem: str) -> Condition:
     """Return a condition: OpenAI-ES with a small network."""
-    told = PROBLEMS[problem]
-    return Condition(
-        f"{problem} evolution",
-        {
-            "exp": {"environment": told["environment"], "algo": "OpenAI-ES"},
-            "policy": {
-                "episodes": 1,
-                "pepisodes": 20,
-                "maxsteps": told["maxsteps"],
-                "nhiddens": 20 if problem == "long" else 10,
-                "bias": 1,
-                "afunction": 2,
-                "out_type": 3,
-                "winit": 1,
-                "normalize": 1,
-                "clip": 1,
-            },
-            "algo": {"maxmsteps": told["steps"]["ES"], "samplesize": 20} | ES[problem],
-        },
-        x=2.0 * list(PROBLEMS).index(problem),
-    )
+    environment, steps, hidden = PROBLEMS[problem]
+    network = f"nhiddens={hidden}, bias=1, afunction=2, out_type=3, winit=1, normalize=1, clip=1"
+    policy = f"episodes=1, pepisodes=20, maxsteps={steps}, {network}"
+    place = 2 * list(PROBLEMS).index(problem)
+    return Condition.of(f"{problem} evolution", environment, policy, ES[problem], x=place)
 
 
 def gradient(problem: str) -> Condition:
     """Return a condition: PPO with two layers of 64 neurons."""
-    told = PROBLEMS[problem]
-    name = told["environment"]
-    settings = PPO[problem] | {"learning_rate": RATES[problem], "normalize": True}
-    settings |= {"log_std_init": -0.5} if problem == "long" else {}
-    return Condition(
-        f"{problem} gradient",
-        {
-            "exp": {
-                "environment": f"botschool/{name}" if name.startswith("Planar") else name,
-                "algo": "PPO",
-            },
-            "policy": {"pepisodes": 20},
-            "algo": {"maxmsteps": told["steps"]["PPO"]},
-            "ppo": settings,
-        },
-        x=2.0 * list(PROBLEMS).index(problem) + 1,
-        kind="training",
-    )
-
-
-def verdicts(one: np.ndarray, other: np.ndarray) -> set[str]:
-    """Return the right answers on which method needs less; one: evolution's numbers."""
-    p = permutation_test(one, other)
-    winner = METHODS[int(one.mean() > other.mean())]
-    if NEAR[0] < p < NEAR[1]:
-        return {winner, CANNOT_TELL}
-    return {winner} if p < LEVEL else {CANNOT_TELL}
+    environment, (msteps, ppo) = PROBLEMS[problem][0], PPO[problem]
+    environment = f"botschool/{environment}" if problem == "long" else environment
+    place = 2 * list(PROBLEMS).index(problem) + 1
+    return Condition.trained(f"{problem} gradient", environment, msteps, keywords(ppo), place)
 
 
 def speeds(answers: Answers) -> tuple[dict[str, float], list[str]] | None:
@@ -132,87 +113,59 @@ def changes(data: Data, answers: Answers) -> Judged:
     """Judge on how many problems the seconds give another answer than the steps."""
     told = speeds(answers)
     if told is None:
-        return lambda answer: False, "write all six seconds first."
+        return one_of([], "write all six seconds first.")
     seconds_of, _ = told
     possible = {0}
-    for problem in PROBLEMS:
-        names = [f"{problem} {method}" for method in METHODS]
-        one, other = (data[name]["steps"] for name in names)
-        steps = verdicts(one, other)
-        seconds = verdicts(one * seconds_of[names[0]], other * seconds_of[names[1]])
-        here = {int(a != b) for a in steps for b in seconds}
+    for names in NEEDS.values():
+        steps = [data[name]["steps"] for name in names]
+        seconds = [data[name]["steps"] * seconds_of[name] for name in names]
+        one, other = (winners(*each, METHODS[::-1]) for each in (steps, seconds))
+        here = {int(a != b) for a in one for b in other}
         possible = {count + each for count in possible for each in here}
-    return lambda answer: answer in possible, "test steps and seconds of each problem again."
+    return one_of(possible, "test steps and seconds of each problem again.")
 
 
 def timed(data: Data, answers: Answers) -> Judged:
     """Judge whether the seconds are plausible for a machine."""
     told = speeds(answers)
     if told is None:
-        return lambda answer: False, "write all six seconds first."
+        return one_of([], "write all six seconds first.")
     _, wrong = told
     return lambda answer: not wrong, f"{'; '.join(wrong)}."
 
 
-def needs(problem: str) -> tuple[str, ...]:
-    """Return the two conditions of a problem."""
-    return tuple(f"{problem} {method}" for method in METHODS)
-
-
-def fewer(problem: str) -> Statement:
-    """Return the statement on which method needs fewer steps."""
-    evolved, trained = needs(problem)
-    return Statement(
-        problem, 4, (evolved, trained), larger("steps", trained, evolved, METHODS)
-    )  # the method that does not need more
-
-
+NEEDS = {problem: tuple(f"{problem} {method}" for method in METHODS) for problem in PROBLEMS}
+"""Problem -> its two conditions."""
 CONDITIONS = tuple(make(problem) for problem in PROBLEMS for make in (evolution, gradient))
 ALL = tuple(condition.name for condition in CONDITIONS)
-SECONDS = tuple(
-    Field(f"seconds-{p}-{m}", "number", f"The seconds of {p} {m}", 0, 10_000)
-    for p in PROBLEMS
-    for m in METHODS
+SECONDS, *OTHERS = (
+    number(f"seconds-{each.replace(' ', '-')}", f"The seconds of {each}", 0, 10_000) for each in ALL
 )
 LAB = Lab(
     number=14,
-    title="Evolution or policy gradient: when which?",
     conditions=CONDITIONS,
     predictions=(
-        *(
-            Field(f"predicted-{problem}", "choice", f"Which needs fewer steps, {problem}")
-            for problem in PROBLEMS
-        ),
-        Field("predicted-changes", "number", "How many answers change with seconds", 0, 3),
-        Field("why", "text", "Why you predict this", words=10),
+        *(choice(f"predicted-{each}", f"Which needs fewer steps, {each}") for each in PROBLEMS),
+        number("predicted-changes", "How many answers change with seconds", 0, 3),
+        WHY,
     ),
     fields=(
-        *(Field(each, "choice", f"Which needs fewer steps, {each}") for each in PROBLEMS),
-        Field("p", "number", "The p of the permutation test", 0, 1),
-        *SECONDS,
-        Field("changes", "number", "How many answers change with seconds", 0, 3),
+        *(
+            larger(each, f"Which needs fewer steps, {each}", 4, "steps", NEEDS[each], METHODS[::-1])
+            for each in PROBLEMS
+        ),
+        p_value("p", "The p of the permutation test", 3, "steps", NEEDS["long"]),
+        replace(SECONDS, points=4, needs=NEEDS["dense"], judge=timed),
+        *OTHERS,
+        number("changes", "How many answers change with seconds", 0, 3, 6, ALL, changes),
     ),
     measures={"steps": 1e-6, "reached": 1e-6, "fresh": 1e-3},
     reference=reference,
     unseen=(evolution("dense"), gradient("dense")),
     columns=(
-        Column("reached", lambda values: (float(values["reached"].sum()),), lambda true: 0.01),
-        Column(
-            "median steps (thousands)",
-            lambda values: (float(np.median(values["steps"])) / 1000,),
-            lambda true: 0.6 + 0.002 * true[0],
-        ),
-        Column(
-            "median return in new episodes",
-            lambda values: (float(np.median(values["fresh"])),),
-            lambda true: 0.6 + 0.002 * abs(true[0]),
-        ),
-    ),
-    statements=(
-        *(fewer(problem) for problem in PROBLEMS),
-        Statement("p", 3, needs("long"), p_value("steps", *needs("long"))),
-        Statement("seconds-dense-evolution", 4, needs("dense"), timed),
-        Statement("changes", 6, ALL, changes),
+        Column("reached", np.sum, "reached", 0.01),
+        Column("median steps (thousands)", np.median, "steps", 0.6, 0.002, unit=1000),
+        Column("median return in new episodes", np.median, "fresh", 0.6, 0.002),
     ),
     figure=Figure("steps", ALL, ("step",)),
     rubric=(
@@ -222,6 +175,6 @@ LAB = Lab(
     ),
     robot="runs",
     shown=("sparse evolution", "long evolution"),
-    best=lambda values: values["fresh"],
+    best="fresh",
     redone=8,
-)  # fmt: skip
+)

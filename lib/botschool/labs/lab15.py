@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import Answers, Column, Condition, Data, Field, Figure, Lab, Statement
-from botschool.labs.judging import CANNOT_TELL, Judged, larger, p_value
-from botschool.labs.measuring import chases, interval
+from botschool.labs.declare import (
+    WHY,
+    Answers,
+    Column,
+    Condition,
+    Data,
+    Figure,
+    Judge,
+    Judged,
+    Lab,
+    choice,
+    number,
+)
+from botschool.labs.judging import larger, mean_interval, mean_over, one_of, p_value, side
+from botschool.labs.measuring import chases
 
 
 def historical(matrix: np.ndarray) -> float:
@@ -33,101 +44,56 @@ WHO = ("random", "best")
 
 def condition(who: str) -> Condition:
     """Return a condition: predators and prey with small networks, at most 40 seconds a chase."""
-    return Condition(
+    network = "maxsteps=400, nhiddens=8, bias=1, out_type=2, winit=0"
+    sizes = "ngenerations=20, popsize=10, selsize=4, samplesize=5"
+    return Condition.of(
         who,
-        {
-            "exp": {"environment": "ErPredprey", "algo": "coevo2"},
-            "policy": {
-                "nrobots": 2,
-                "heterogeneous": 1,
-                "episodes": 1,
-                "pepisodes": 1,
-                "maxsteps": 400,
-                "nhiddens": 8,
-                "bias": 1,
-                "out_type": 2,
-                "winit": 0,
-            },
-            "algo": {
-                "ngenerations": 20,
-                "popsize": 10,
-                "selsize": 4,
-                "samplesize": 5,
-                "stepsize": 0.02,
-                "noiseStdDev": 0.05,
-                "evolving": who,
-                "saveeach": 4,
-            },
-        },
-        x=float(WHO.index(who)),
+        "ErPredprey",
+        f"nrobots=2, heterogeneous=1, episodes=1, pepisodes=1, {network}",
+        f"{sizes}, stepsize=0.02, noiseStdDev=0.05, evolving='{who}', saveeach=4",
+        "coevo2",
+        float(WHO.index(who)),
     )
 
 
-def above_zero(measure: str) -> Callable[[Data, Answers], Judged]:
+def above_zero(measure: str) -> Judge:
     """Judge whether a measure's mean over the runs of `random` lies above 0."""
 
     def judge(data: Data, answers: Answers) -> Judged:
-        low, high = interval(data["random"][measure], np.mean)
-        right = "yes" if low > 0 else "no, fewer" if high < 0 else CANNOT_TELL
+        right = side(mean_interval(data["random"][measure]), 0, ("yes", "no, fewer"))
         told = f"look where the interval of the mean of {measure} lies, below 0, above or around."
-        return lambda answer: answer == right, told
+        return one_of(right, told)
 
     return judge
 
 
-def first_part(data: Data, answers: Answers) -> Judged:
-    """Judge how much of the historical progress is due to generation 0."""
-    found = float((data["random"]["historical"] - data["random"]["later"]).mean())
-    told = "compute the mean of historical - later over your ten runs of random again."
-    return lambda answer: abs(answer - found) <= 0.006 + 0.02 * abs(found), told
-
-
-def mean_of(measure: str) -> Column:
-    """Return a column of means."""
-    return Column(
-        f"mean {measure}",
-        lambda values: (float(values[measure].mean()),),
-        lambda true: 0.006 + 0.01 * abs(true[0]),
-    )
-
-
-def interval_of(values: Mapping[str, np.ndarray]) -> tuple[float, float]:
-    """Return the interval of the mean historical progress."""
-    return interval(values["historical"], np.mean)
-
-
+RANDOM = ("random",)
+AHEAD = above_zero("historical")
+FIRST = mean_over(RANDOM, "historical - later", 0.006, "your ten runs of random")
 LAB = Lab(
     number=15,
-    title="Do later predators beat more of the ancient prey?",
     conditions=tuple(condition(who) for who in WHO),
     predictions=(
-        Field("predicted-ancient", "choice", "Whether later predators beat more ancient prey"),
-        Field("predicted-who", "choice", "Who makes more progress"),
-        Field("predicted-gain", "number", "The mean historical progress", -2, 2),
-        Field("why", "text", "Why you predict this", words=10),
+        choice("predicted-ancient", "Whether later predators beat more ancient prey"),
+        choice("predicted-who", "Who makes more progress"),
+        number("predicted-gain", "The mean historical progress", -2, 2),
+        WHY,
     ),
     fields=(
-        Field("ancient", "choice", "Whether later predators beat more ancient prey"),
-        Field("without", "choice", "The same without generation 0"),
-        Field("due", "number", "What is due to generation 0", -5, 5),
-        Field("who", "choice", "Who makes more progress"),
-        Field("p", "number", "The p of the permutation test", 0, 1),
+        choice("ancient", "Whether later predators beat more ancient prey", 6, RANDOM, AHEAD),
+        choice("without", "The same without generation 0", 6, RANDOM, above_zero("later")),
+        number("due", "What is due to generation 0", -5, 5, 4, RANDOM, FIRST),
+        larger("who", "Who makes more progress", 5, "global", WHO),
+        p_value("p", "The p of the permutation test", 4, "global", WHO),
     ),
     measures={"historical": 1e-3, "later": 1e-3, "global": 1e-3},
     reference=reference,
     unseen=(condition("best"),),
     columns=(
-        mean_of("historical"),
-        Column("95 % interval", interval_of, lambda true: 0.01 + 0.3 * (true[1] - true[0])),
-        mean_of("later"),
-        mean_of("global"),
-    ),
-    statements=(
-        Statement("ancient", 6, ("random",), above_zero("historical")),
-        Statement("without", 6, ("random",), above_zero("later")),
-        Statement("due", 4, ("random",), first_part),
-        Statement("who", 5, WHO, larger("global", *WHO, WHO)),
-        Statement("p", 4, WHO, p_value("global", *WHO)),
+        Column("mean historical", np.mean, "historical", 0.006, 0.01),
+        Column("95 % interval", mean_interval, "historical", 0.01),
+        Column("mean later", np.mean, "later", 0.006, 0.01),
+        Column("mean global", np.mean, "global", 0.006, 0.01),
     ),
     figure=Figure("historical", WHO, ("progress", "fitness")),
     rubric=(
@@ -137,6 +103,6 @@ LAB = Lab(
     ),
     robot="co-evolutions",
     shown=WHO,
-    best=lambda values: values["global"],
+    best="global",
     redone=4,
 )

@@ -103,7 +103,7 @@ def _replay(lab: Lab, checked: Checked, name: str, folder: Path) -> str:
     runs = checked.runs.get(name)
     if not runs:
         return ""
-    best: SavedRun = runs[int(lab.best(checked.data[name]).argmax())]
+    best: SavedRun = runs[int(checked.data[name][lab.best].argmax())]
     experiment = best.condition.load()
     problem = problems.of(experiment)
     policy = problem.policy(experiment.policy)
