@@ -2,12 +2,16 @@
 
 import re
 import shutil
+from contextlib import redirect_stdout
 from dataclasses import replace
 from importlib import import_module
+from io import StringIO
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 
+from botschool.labs import measuring
 from botschool.labs.declare import load_lab
 from botschool.labs.folder import Place, start
 from botschool.labs.runs import make_runs, own_runs
@@ -106,9 +110,18 @@ def measured(place):
 
 
 def table(place, data):
-    """Fill in the table."""
-    for name, values in data.items():
-        row = f"| {name} | {student(place.lab.number).cells(values)} |"
+    """Fill in the table with the rows that measure.py prints; what takes long is left out."""
+    given = {
+        "measure_all": lambda measure: data,
+        "power": lambda *groups, runs: 0.5,
+        "seconds_per_million": lambda number, condition: 1.0,
+    }
+    with patch.multiple(measuring, **given), redirect_stdout(StringIO()) as printed:
+        exec((place.folder / "measure.py").read_text(), {"__name__": "__main__"})
+    rows = [line for line in printed.getvalue().splitlines() if line.startswith("| ")]
+    assert len(rows) == len(data)
+    for row in rows:
+        name = row.split("|")[1].strip()
         edit(place, lambda text, n=name, r=row: row_of(n).sub(r, text))
 
 

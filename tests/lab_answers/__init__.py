@@ -3,7 +3,7 @@
 PREDICTIONS: field -> answer; HONEST: three students with predictions (and a rule) of their own;
 PARTS: how many times smaller the budgets of the proofs are; MEASURE: the functions of measure.py;
 SHOWN, DRAWN: which conditions the figure shows, and the measure with the names of both axes;
-cells(values): a row of the table; conclusions(place, data): the answers after the table.
+conclusions(place, data): the answers after the table.
 Optional: `prepare(place)`, what the student does between `start` and `run`; `mark(data)`, code that
 marks the result in the figure.
 """

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from botschool.labs.measuring import interval
 from lab_answers import WHY, which
 
 PREDICTIONS = {"best-cartpole": "4", "best-pendulum": "100", "fresh-20": -300, "why": WHY}
@@ -18,12 +17,6 @@ def measure(run):
 """
 SHOWN = "Pendulum"
 DRAWN = ("fresh", "individuals", "mean return in new episodes")
-
-
-def cells(values):
-    low, high = interval(values["fresh"])
-    row = f"{values['solved'].sum():.0f} | {np.median(values['evaluations']):g} | "
-    return row + f"{np.median(values['fresh']):.1f} | {low:.1f} to {high:.1f}"
 
 
 def conclusions(place, data):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from botschool.labs.measuring import interval, permutation_test
+from botschool.labs.measuring import permutation_test
 from lab_answers import WHY
 
 PREDICTIONS = {
@@ -20,12 +20,6 @@ def measure(run):
 """
 SHOWN = "Pendulum"
 DRAWN = ("fresh", "setting", "mean return in new episodes")
-
-
-def cells(values):
-    low, high = interval(values["fresh"])
-    row = f"{np.median(values['fresh']):.1f} | {low:.1f} to {high:.1f} | "
-    return row + f"{np.mean(values['reported'] - values['fresh']):.1f}"
 
 
 def conclusions(place, data):

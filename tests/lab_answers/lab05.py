@@ -1,8 +1,6 @@
 """Laboratory 5."""
 
-import numpy as np
-
-from botschool.labs.measuring import interval, paired_test, permutation_test
+from botschool.labs.measuring import paired_test, permutation_test
 from lab_answers import WHY, which
 
 PREDICTIONS = {
@@ -27,12 +25,6 @@ def measure(run):
 """
 SHOWN = ""
 DRAWN = ("swapped", "stage", "return in the others' bodies")
-
-
-def cells(values):
-    low, high = interval(values["own"] - values["swapped"], np.mean)
-    row = f"{np.median(values['own']):.2f} | {np.median(values['swapped']):.2f} | "
-    return row + f"{low:.2f} to {high:.2f}"
 
 
 def better(values):

@@ -43,12 +43,6 @@ SHOWN = ""
 DRAWN = ("turning", "kind", "turning (rad a step)")
 
 
-def cells(values):
-    low, high = interval(values["return"])
-    row = f"{np.median(values['return']):.1f} | {low:.1f} to {high:.1f} | "
-    return row + f"{np.median(values['lost']):.3f} | {np.median(values['search']):.1f}"
-
-
 def conclusions(place, data):
     sys.path.append(str(SOLUTION))
     from foraging_robot import families

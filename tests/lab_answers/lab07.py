@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from botschool.labs.measuring import interval, paired_test
+from botschool.labs.measuring import paired_test
 from lab_answers import WHY, which
 
 PREDICTIONS = {"when-expected": "early to middle", "survivors-expected": 7, "why": WHY}
@@ -23,12 +23,6 @@ def measure(run):
 """
 SHOWN = ""
 DRAWN = ("return", "stage", "mean return")
-
-
-def cells(values):
-    low, high = interval(values["return"])
-    row = f"{np.median(values['return']):.1f} | {low:.1f} to {high:.1f} | "
-    return row + f"{values['upright'].mean():.3f} | {np.median(values['heavy']):.1f}"
 
 
 def conclusions(place, data):

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from botschool.labs.measuring import interval, permutation_test
+from botschool.labs.measuring import permutation_test
 from lab_answers import WHY, which
 
 SOLUTION = Path(__file__).parents[2] / "solutions" / "ex08_openai_es" / "openai_es.py"
@@ -28,12 +28,6 @@ DRAWN = ("drop", "step size", "drop (share of the curve's height)")
 
 def prepare(place):
     shutil.copy(SOLUTION, place.folder / "strategy.py")
-
-
-def cells(values):
-    low, high = interval(values["fresh"])
-    row = f"{np.median(values['drop']):.3f} | {values['severe'].sum():.0f} | "
-    return row + f"{np.median(values['fresh']):.1f} | {low:.1f} to {high:.1f}"
 
 
 def conclusions(place, data):

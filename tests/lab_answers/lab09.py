@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from botschool.labs.measuring import interval
 from lab_answers import WHY, which
 from lab_answers.lab08 import prepare as prepare
 
@@ -21,12 +20,6 @@ def measure(run):
 """
 SHOWN = "bonus"
 DRAWN = ("metres", "bonus (reward per step)", "metres ahead (m)")
-
-
-def cells(values):
-    low, high = interval(values["metres"])
-    row = f"{np.median(values['metres']):.2f} | {low:.2f} to {high:.2f} | "
-    return row + f"{values['statue'].sum():.0f}"
 
 
 def tipping(data):

@@ -1,8 +1,5 @@
 """Laboratory 12."""
 
-import numpy as np
-
-from botschool.labs.measuring import interval
 from lab_answers import WHY, which
 
 PREDICTIONS = {
@@ -43,12 +40,6 @@ DRAWN = ("episodes", "rule", "episodes until solved")
 
 def prepare(place):
     (place.folder / "learn.py").write_text(LEARN)
-
-
-def cells(values):
-    low, high = interval(values["episodes"])
-    row = f"{values['solved'].sum():.0f} | {np.median(values['episodes']):g} | "
-    return row + f"{low:.1f} to {high:.1f}"
 
 
 def conclusions(place, data):

@@ -2,8 +2,6 @@
 
 from functools import cache
 
-import numpy as np
-
 from botschool.labs.measuring import permutation_test, seconds_per_million
 from lab_answers import WHY
 
@@ -36,13 +34,6 @@ METHODS = ("evolution", "gradient")
 def seconds(problem, method):
     """Measured on this machine."""
     return float(f"{seconds_per_million(14, f'{problem} {method}'):.3g}")
-
-
-def cells(values):
-    return (
-        f"{values['reached'].sum():.0f} | {np.median(values['steps']) / 1000:.2f} | "
-        f"{np.median(values['fresh']):.2f}"
-    )
 
 
 def needs_less(one, other):

@@ -27,14 +27,6 @@ SHOWN = ""
 DRAWN = ("historical", "who evolves", "historical progress (fitness)")
 
 
-def cells(values):
-    low, high = interval(values["historical"], np.mean)
-    return (
-        f"{values['historical'].mean():.3f} | {low:.3f} to {high:.3f} | "
-        f"{values['later'].mean():.3f} | {values['global'].mean():.3f}"
-    )
-
-
 def above(values):
     low, high = interval(values, np.mean)
     return "yes" if low > 0 else "no, fewer" if high < 0 else "my runs cannot tell"

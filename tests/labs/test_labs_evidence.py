@@ -16,8 +16,8 @@ from botschool.labs.check import Check
 from botschool.labs.classes import WantedSheet, secret_choice, traces
 from botschool.labs.confined import check_picture, drawn_figure, student_file
 from botschool.labs.declare import load_lab
+from botschool.labs.evolving import told_fitness
 from botschool.labs.folder import skeletons
-from botschool.labs.own import told_fitness
 from botschool.labs.runs import changed
 from botschool.labs.saved import SavedRun, numbers
 from botschool.labs.sheet import Sheet, seeds_of

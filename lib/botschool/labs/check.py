@@ -17,10 +17,9 @@ from botschool.grading.run.confined import SHORTAGES, MachineFault, machine_faul
 from botschool.grading.run.student import Student
 from botschool.labs.confined import drawn_figure, measured, student_file
 from botschool.labs.declare import PARTS, STRATEGY, WORDS
+from botschool.labs.evolving import replayed
 from botschool.labs.folder import Place
-from botschool.labs.learning import LEARN
-from botschool.labs.own import replayed
-from botschool.labs.runs import changed, drawn, own_runs
+from botschool.labs.runs import LEARN, changed, drawn, own_runs
 from botschool.labs.saved import SavedRun, plain_runs
 from botschool.labs.sheet import Sheet, Unreadable, check_specific, numbers_in
 

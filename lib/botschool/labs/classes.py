@@ -19,10 +19,9 @@ from botschool.grading.classes.collect import Laboratory
 from botschool.grading.classes.export import one_person
 from botschool.grading.classes.files import File, Handed
 from botschool.grading.classes.finding import numbered_folders
-from botschool.grading.declare.exercise import Exercise, Number, Task
+from botschool.grading.declare.exercise import Exercise, Number
 from botschool.grading.declare.secret import DEFAULT, VARIABLE
-from botschool.labs.check import Check, Checked
-from botschool.labs.check import Part as CheckedPart
+from botschool.labs.check import Check, Checked, Part
 from botschool.labs.declare import NUMBERS, PARTS, WORDS, Lab, load_lab
 from botschool.labs.folder import Place, skeletons
 from botschool.labs.sheet import MAX_BYTES
@@ -36,27 +35,13 @@ _NEEDED = re.compile(
 )
 
 
-class Part(Task):
-    """A part of a laboratory, in the form that tables and pages need."""
-
-    points = 0
-
-    @property
-    def max_points(self) -> int:
-        return self.points
-
-
-class Sheet(Exercise):
-    """A laboratory as an exercise for grade-all, whose tasks are its parts."""
-
-    program = "botschool.labs.classes"
-
-    def __init__(self, lab: Lab) -> None:
-        super().__init__(lab.number, lab.title, "sheet.md")
-        for name, points in (PARTS | {"words": WORDS}).items():
-            part = Part(f"{_key(lab)}.{name}", name, SECONDS, 0)
-            part.points = points
-            self.tasks.append(part)
+def sheet_of(lab: Lab) -> Exercise:
+    """Return a laboratory as an exercise for grade-all, whose tasks are its parts."""
+    exercise = Exercise(lab.number, lab.title, "sheet.md")
+    exercise.program = "botschool.labs.classes"
+    for name, points in (PARTS | {"words": WORDS}).items():
+        exercise.task(f"{_key(lab)}.{name}", name, SECONDS, 0).check(points)(_grade)
+    return exercise
 
 
 class WantedSheet(Wanted):
@@ -135,7 +120,7 @@ def _key(lab: Lab) -> Number:
 def laboratories() -> dict[Number, Laboratory]:
     """Return all laboratories, in the form that grade-all needs."""
     labs = [load_lab(number) for number in NUMBERS]
-    return {_key(lab): Laboratory(Sheet(lab), WantedSheet(lab)) for lab in labs}
+    return {_key(lab): Laboratory(sheet_of(lab), WantedSheet(lab)) for lab in labs}
 
 
 def secret_choice(place: Place, secret: str) -> Callable[[int], bytes]:
@@ -209,7 +194,7 @@ def _grade(number: str, file: Path, tasks: list[str], alone: bool) -> dict[str, 
     try:
         place.sheet()
     except BotschoolError as error:
-        nothing = Checked([CheckedPart(name, most) for name, most in PARTS.items()], {}, {}, {})
+        nothing = Checked([Part(name, most) for name, most in PARTS.items()], {}, {}, {})
         problem = str(error).replace(f"{place.folder}/", "")
         return record(nothing, lab) | {"problem": problem}
     draw = secret_choice(place, os.environ.get(VARIABLE) or DEFAULT)

@@ -72,7 +72,7 @@ class Condition:
             options = ", ".join(f"{k}={v:g}" for k, v in told.items() if k != "maxmsteps")
             told = {"maxmsteps": told["maxmsteps"], "options": options}
         exp = {"environment": environment, "algo": by} | more
-        experiment = {"exp": exp, "policy": keywords(policy), "algo": told}
+        experiment: dict[str, Any] = {"exp": exp, "policy": keywords(policy), "algo": told}
         return cls(name, experiment, generations, x)
 
     @classmethod
@@ -80,7 +80,7 @@ class Condition:
         cls, name: str, environment: str, msteps: float, ppo: dict[str, Any], x: float, **more: Any
     ) -> Condition:
         """Return a condition of trainings by PPO. more: further parts of the experiment."""
-        experiment = {
+        experiment: dict[str, Any] = {
             "exp": {"environment": environment, "algo": "PPO"},
             "policy": {"pepisodes": 20},
             "algo": {"maxmsteps": msteps},
@@ -136,30 +136,6 @@ class Field:
     """Returns whether an answer is right, and a sentence on the data; None: it has no points."""
     words: int = 0
     """Smallest number of words of a text."""
-
-
-def number(
-    id: str,
-    what: str,
-    low: float,
-    high: float,
-    points: int = 0,
-    needs: tuple[str, ...] = (),
-    judge: Judge | None = None,
-) -> Field:
-    """Return a field for a number."""
-    return Field(id, "number", what, low, high, points, needs, judge)
-
-
-def choice(
-    id: str, what: str, points: int = 0, needs: tuple[str, ...] = (), judge: Judge | None = None
-) -> Field:
-    """Return a field of boxes, of which one is marked."""
-    return Field(id, "choice", what, points=points, needs=needs, judge=judge)
-
-
-WHY = Field("why", "text", "Why you predict this", words=10)
-"""The last field of each prediction."""
 
 
 @dataclass(frozen=True)

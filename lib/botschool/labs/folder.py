@@ -50,11 +50,6 @@ class Place:
 
     def sheet(self) -> Sheet:
         """Read and return the sheet. Raises BotschoolError if there is none."""
-        if not (self.folder / "sheet.md").is_file():
-            raise BotschoolError(
-                f"There is no {self.folder / 'sheet.md'}: botschool lab {self.lab.number} start "
-                "makes it."
-            )
         return Sheet.read(self.folder / "sheet.md")
 
 
@@ -118,34 +113,32 @@ def _together(names: list[str], lab: Lab) -> str:
 
 def skeletons(lab: Lab) -> dict[str, str]:
     """Return the files that the student's folder gets: name -> text."""
-    here = Path(__file__).parent
-    sheet, *parts = FILE.split((here / f"{lab.name}.md").read_text(encoding="utf-8"))
+    sheet, *parts = FILE.split(lab.page)
     files = {"sheet.md": sheet.rstrip().replace("{SETTINGS}", settings(lab)) + "\n"}
     for name, text in zip(parts[::2], parts[1::2], strict=True):
         files[name] = text.strip().removeprefix("```python\n").removesuffix("```")
     told = indent(files["figure.py"], "    ").strip()
-    figure = (here / "figure.txt").read_text(encoding="utf-8")
+    figure = Path(__file__).with_name("figure.txt").read_text(encoding="utf-8")
     files["figure.py"] = figure.replace("{NUMBER}", str(lab.number)).replace("{TOLD}", told)
     return files
 
 
 def start(place: Place, name: str, course: str) -> list[Path]:
     """Make the folder; leave existing files as they are and return them."""
+    files = {
+        file: text.replace("{NAME}", name).replace("{COURSE}", course).encode()
+        for file, text in skeletons(place.lab).items()
+    }
+    if place.lab.strategy:
+        files[f"{STRATEGY}.py"] = _of_the_exercise(place.lab.strategy)
     place.folder.mkdir(parents=True, exist_ok=True)
     kept = []
-    for target, text in skeletons(place.lab).items():
-        path = place.folder / target
-        if path.exists():
-            kept.append(path)
-            continue
-        text = text.replace("{NAME}", name).replace("{COURSE}", course)
-        path.write_text(text, encoding="utf-8")
-    if place.lab.strategy:
-        path = place.folder / f"{STRATEGY}.py"
+    for file, content in files.items():
+        path = place.folder / file
         if path.exists():
             kept.append(path)
         else:
-            path.write_bytes(_of_the_exercise(place.lab.strategy))
+            path.write_bytes(content)
     return kept
 
 

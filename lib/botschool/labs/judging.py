@@ -7,17 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import (
-    Answers,
-    Column,
-    Data,
-    Field,
-    Judge,
-    Judged,
-    choice,
-    measured,
-    number,
-)
+from botschool.labs.declare import Answers, Column, Data, Field, Judge, Judged, measured
 from botschool.labs.measuring import interval, permutation_test, power
 
 CANNOT_TELL = "my runs cannot tell"
@@ -34,6 +24,30 @@ Test = Callable[[np.ndarray, np.ndarray], float]
 """permutation_test or paired_test: returns the p of two groups."""
 
 
+def number(
+    id: str,
+    what: str,
+    low: float,
+    high: float,
+    points: int = 0,
+    needs: tuple[str, ...] = (),
+    judge: Judge | None = None,
+) -> Field:
+    """Return a field for a number."""
+    return Field(id, "number", what, low, high, points, needs, judge)
+
+
+def choice(
+    id: str, what: str, points: int = 0, needs: tuple[str, ...] = (), judge: Judge | None = None
+) -> Field:
+    """Return a field of boxes, of which one is marked."""
+    return Field(id, "choice", what, points=points, needs=needs, judge=judge)
+
+
+WHY = Field("why", "text", "Why you predict this", words=10)
+"""The last field of each prediction."""
+
+
 def one_of(right: Iterable[Any], told: str) -> Judged:
     """Judge an answer that must be one of these."""
     found = set(right)
@@ -47,10 +61,11 @@ def near(right: float, within: float, share: float, told: str) -> Judged:
 
 def groups(
     data: Data, measure: str | tuple[str, str], conditions: tuple[str, ...]
-) -> list[np.ndarray]:
+) -> tuple[np.ndarray, np.ndarray]:
     """Return two groups: a measure of two conditions, or two measures of one condition."""
     measures = (measure,) if isinstance(measure, str) else measure
-    return [measured(each, data[name]) for name in conditions for each in measures]
+    one, other = (measured(each, data[name]) for name in conditions for each in measures)
+    return one, other
 
 
 def larger(

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import WHY, Answers, Column, Condition, Figure, Lab, choice, number
-from botschool.labs.judging import FRESH, RETURN, larger, mean_over, p_value
+from botschool.labs.declare import Answers, Column, Condition, Figure, Lab
+from botschool.labs.judging import FRESH, RETURN, WHY, choice, larger, mean_over, number, p_value
 from botschool.labs.measuring import play_again
 
 SOLVED = 475.0

@@ -6,20 +6,18 @@ from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import (
+from botschool.labs.declare import Answers, Column, Condition, Data, Figure, Judge, Judged, Lab
+from botschool.labs.judging import (
+    CANNOT_TELL,
+    FRESH,
+    RETURN,
     WHY,
-    Answers,
-    Column,
-    Condition,
-    Data,
-    Figure,
-    Judge,
-    Judged,
-    Lab,
     choice,
+    mean_over,
+    near,
     number,
+    one_of,
 )
-from botschool.labs.judging import CANNOT_TELL, FRESH, RETURN, mean_over, near, one_of
 from botschool.labs.measuring import permutation_test, play_again
 
 

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import WHY, Answers, Column, Condition, Figure, Lab, choice, number
-from botschool.labs.judging import RETURN, larger, mean_interval, p_value
+from botschool.labs.declare import Answers, Column, Condition, Figure, Lab
+from botschool.labs.judging import RETURN, WHY, choice, larger, mean_interval, number, p_value
 from botschool.labs.measuring import paired_test, play_again
 
 BODY = 64

@@ -7,19 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import (
-    WHY,
-    Answers,
-    Column,
-    Condition,
-    Data,
-    Figure,
-    Judged,
-    Lab,
-    choice,
-    number,
-)
-from botschool.labs.judging import larger, mean_interval, one_of, p_value, side
+from botschool.labs.declare import Answers, Column, Condition, Data, Figure, Judged, Lab
+from botschool.labs.judging import WHY, choice, larger, mean_interval, number, one_of, p_value, side
 from botschool.labs.measuring import CYLINDER, forage, interval
 
 

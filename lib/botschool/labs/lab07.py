@@ -6,19 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import (
-    WHY,
-    Answers,
-    Column,
-    Condition,
-    Data,
-    Figure,
-    Judged,
-    Lab,
-    choice,
-    number,
-)
-from botschool.labs.judging import RETURN, larger, one_of, p_value, side
+from botschool.labs.declare import Answers, Column, Condition, Data, Figure, Judged, Lab
+from botschool.labs.judging import RETURN, WHY, choice, larger, number, one_of, p_value, side
 from botschool.labs.measuring import RESAMPLES, interval, paired_test, swing
 
 LAST, UPRIGHT = 50, 0.3

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import WHY, Answers, Column, Condition, Figure, Lab, choice, number
-from botschool.labs.judging import FRESH, larger, p_value, powerful
+from botschool.labs.declare import Answers, Column, Condition, Figure, Lab
+from botschool.labs.judging import FRESH, WHY, choice, larger, number, p_value, powerful
 from botschool.labs.measuring import play_again
 
 WIDTH = 20

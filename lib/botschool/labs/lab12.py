@@ -6,19 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import (
-    WHY,
-    Answers,
-    Column,
-    Condition,
-    Data,
-    Figure,
-    Judged,
-    Lab,
-    choice,
-    number,
-)
-from botschool.labs.judging import larger, near, p_value
+from botschool.labs.declare import Answers, Column, Condition, Data, Figure, Judged, Lab
+from botschool.labs.judging import WHY, choice, larger, near, number, p_value
 from botschool.labs.measuring import interval
 from botschool.wrappers import keywords
 

@@ -8,19 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import (
-    WHY,
-    Answers,
-    Column,
-    Condition,
-    Data,
-    Figure,
-    Judged,
-    Lab,
-    choice,
-    number,
-)
-from botschool.labs.judging import larger, one_of, p_value, winners
+from botschool.labs.declare import Answers, Column, Condition, Data, Figure, Judged, Lab
+from botschool.labs.judging import WHY, choice, larger, number, one_of, p_value, winners
 from botschool.labs.measuring import play_again, seconds_per_million
 from botschool.wrappers import keywords
 
@@ -116,11 +105,11 @@ def changes(data: Data, answers: Answers) -> Judged:
         return one_of([], "write all six seconds first.")
     seconds_of, _ = told
     possible = {0}
-    for names in NEEDS.values():
-        steps = [data[name]["steps"] for name in names]
-        seconds = [data[name]["steps"] * seconds_of[name] for name in names]
-        one, other = (winners(*each, METHODS[::-1]) for each in (steps, seconds))
-        here = {int(a != b) for a in one for b in other}
+    for first, second in NEEDS.values():
+        a, b = data[first]["steps"], data[second]["steps"]
+        steps = winners(a, b, METHODS[::-1])
+        seconds = winners(a * seconds_of[first], b * seconds_of[second], METHODS[::-1])
+        here = {int(one != other) for one in steps for other in seconds}
         possible = {count + each for count in possible for each in here}
     return one_of(possible, "test steps and seconds of each problem again.")
 

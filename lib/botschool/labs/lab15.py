@@ -6,20 +6,18 @@ from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import (
+from botschool.labs.declare import Answers, Column, Condition, Data, Figure, Judge, Judged, Lab
+from botschool.labs.judging import (
     WHY,
-    Answers,
-    Column,
-    Condition,
-    Data,
-    Figure,
-    Judge,
-    Judged,
-    Lab,
     choice,
+    larger,
+    mean_interval,
+    mean_over,
     number,
+    one_of,
+    p_value,
+    side,
 )
-from botschool.labs.judging import larger, mean_interval, mean_over, one_of, p_value, side
 from botschool.labs.measuring import chases
 
 

@@ -18,7 +18,7 @@ from botschool.labs.league import (
     Ranked,
     shown_name,
 )
-from botschool.output import save_bytes
+from botschool.labs.report import save_page
 from botschool.render.replay import write_replay
 from botschool.render.scenes import scene_of
 
@@ -67,12 +67,7 @@ def write_page(league: League, path: Path, folder: Path, title: str) -> None:
         body.append(f"<div>{_replay(league, name, places, folder)}</div></div>")
     if len(league.hunters) > 1:
         body.append(_who(league))
-    page = (
-        '<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" '
-        f'content="width=device-width"><title>{escape(title)}</title><style>{_STYLE}</style>'
-        f"</head><body>{''.join(body)}</body></html>\n"
-    )
-    save_bytes(path, page.encode("utf-8", "replace"))
+    save_page(path, title, _STYLE, body)
 
 
 def _table(places: Sequence[Ranked]) -> str:

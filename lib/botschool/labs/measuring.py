@@ -16,6 +16,19 @@ CYLINDER = (200, 150)
 """Position of the cylinder in `forage`: x and y in mm."""
 
 
+def _robot(run: dict[str, Any]) -> tuple[Any, Any, int]:
+    """Return problem, policy with the run's best robot, and steps of an episode."""
+    from botschool import problems
+    from botschool.config import from_dict
+
+    experiment = from_dict(run["experiment"])
+    problem = problems.of(experiment)
+    policy = problem.policy(experiment.policy)
+    if not experiment.competitive:
+        policy.load(*policy.split(np.asarray(run["genotype"])))
+    return problem, policy, experiment.policy.maxsteps
+
+
 def record(run: dict[str, Any], seed: int = 1) -> dict[str, Any]:
     """Play an episode of a planar runner's best robot and record it.
 
@@ -37,16 +50,11 @@ def play_again(run: dict[str, Any], seed: int = 1, episodes: int = 100) -> np.nd
         from botschool.labs.training import filled, play
 
         return play(filled(run["experiment"], np.asarray(run["genotype"])), seed, episodes)
-    from botschool import problems
-    from botschool.config import from_dict
     from botschool.problems import Episodes
 
-    experiment = from_dict(run["experiment"])
-    problem = problems.of(experiment)
-    policy = problem.policy(experiment.policy)
+    problem, policy, steps = _robot(run)
     genotype, normalisation = policy.split(np.asarray(run["genotype"]))
     batch = Episodes.of(np.array([seed], dtype=np.uint64), episodes)
-    steps = experiment.policy.maxsteps
     return problem.evaluate(policy, genotype[None], normalisation, batch, steps).fitness
 
 
@@ -58,13 +66,9 @@ def forage(run: dict[str, Any], forget: bool = False) -> list[dict[str, np.ndarr
     the network's memory before each step.
     """
     from botschool import arena as arenas
-    from botschool import problems
-    from botschool.config import from_dict
 
-    experiment = from_dict(run["experiment"])
-    policy = problems.of(experiment).policy(experiment.policy)
-    policy.load(*policy.split(np.asarray(run["genotype"])))
-    arena = arenas.make("discrim", max_steps=experiment.policy.maxsteps)
+    _, policy, steps = _robot(run)
+    arena = arenas.make("discrim", max_steps=steps)
     recorded = []
     headings = np.arange(3) * 2 * np.pi / 3
     for number, start in enumerate(product((150, 250), (270, 350), headings)):
@@ -92,12 +96,7 @@ def swing(run: dict[str, Any], gravity: float = 10.0, episodes: int = 10) -> dic
     """
     import gymnasium
 
-    from botschool import problems
-    from botschool.config import from_dict
-
-    experiment = from_dict(run["experiment"])
-    policy = problems.of(experiment).policy(experiment.policy)
-    policy.load(*policy.split(np.asarray(run["genotype"])))
+    _, policy, _ = _robot(run)
     env = gymnasium.make("Pendulum-v1", g=gravity)
     seen, rewards = [], []
     for episode in range(episodes):
@@ -123,18 +122,15 @@ def chases(run: dict[str, Any], best: int = 5) -> np.ndarray:
     Return the predators' fitness, shape (G, n, G, n): entry [g, i, h, j] belongs to predator i of
     the g-th saved generation against prey j of the h-th one. best: n.
     """
-    from botschool import problems
-    from botschool.config import from_dict
     from botschool.problems import Episodes
 
-    experiment = from_dict(run["experiment"])
-    problem = problems.of(experiment)
+    problem, policy, steps = _robot(run)
     sides = [np.split(np.asarray(each), 2) for each in run["populations"].values()]
     predators = np.concatenate([each[0][:best] for each in sides])
     prey = np.concatenate([each[1][:best] for each in sides])
     row, column = np.indices((len(predators), len(prey)), dtype=np.int32).reshape(2, -1)
     met = problem.evaluate(
-        problem.policy(experiment.policy),
+        policy,
         np.concatenate([predators, prey]),
         None,
         Episodes(
@@ -142,7 +138,7 @@ def chases(run: dict[str, Any], best: int = 5) -> np.ndarray:
             np.zeros(len(row), dtype=np.uint64),
             np.zeros(len(row), dtype=np.uint32),
         ),
-        experiment.policy.maxsteps,
+        steps,
     )
     count = len(sides)
     return met.fitness.reshape(count, len(predators) // count, count, len(prey) // count)

@@ -48,14 +48,19 @@ def write_report(place: Place, checked: Checked, folder: Path) -> Path:
     if checked.words:
         body += ["<h2>In your words</h2>", f"<blockquote>{_inline(checked.words)}</blockquote>"]
     body.append(f"<h2>Points</h2>{_points(checked)}")
+    path = place.folder / "report.html"
+    save_page(path, lab.title, _STYLE, body)
+    return path
+
+
+def save_page(path: Path, title: str, style: str, body: list[str]) -> None:
+    """Write a page; title: as plain text, body: parts of HTML."""
     page = (
-        f'<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" '
-        f'content="width=device-width"><title>{escape(lab.title)}</title><style>{_STYLE}</style>'
+        '<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" '
+        f'content="width=device-width"><title>{escape(title)}</title><style>{style}</style>'
         f"</head><body>{''.join(body)}</body></html>\n"
     )
-    path = place.folder / "report.html"
-    save_bytes(path, page.encode())
-    return path
+    save_bytes(path, page.encode("utf-8", "replace"))
 
 
 def _told(title: str, fields: tuple[Field, ...], answers: dict[str, Any]) -> str:

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import json
 import os
+import runpy
 import time
 from collections.abc import Callable
 from itertools import takewhile
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from botschool.errors import BotschoolError
 from botschool.labs.declare import Lab
-from botschool.labs.learning import LEARN, own_functions
 from botschool.labs.saved import SavedRun
 from botschool.labs.sheet import MAX_BYTES, Sheet, base_seed, seeds_of
 from botschool.output import save_bytes
@@ -21,6 +22,9 @@ from botschool.sandbox.inside import read_inside
 
 ABOUT = "runs.json"
 """File in the folder of runs; it holds the prediction from which their seeds follow."""
+
+LEARN = "learn.py"
+"""File with the student's own functions, in the laboratory's folder."""
 
 
 def own_runs(lab: Lab, sheet: Sheet, folder: Path) -> dict[str, list[SavedRun]]:
@@ -109,3 +113,23 @@ def drawn(
     pool = [run for each in runs.values() for run in each]
     rng = np.random.default_rng(int.from_bytes(draw(16), "big"))
     return [pool[i] for i in rng.permutation(len(pool))[:count]]
+
+
+def own_functions(path: Path) -> Callable[..., Any] | None:
+    """Return a function that calls the student's functions by name, in this process.
+
+    Return None if the student has no such file.
+    """
+    if not path.is_file():
+        return None
+    space = runpy.run_path(str(path))
+
+    def call(name: str, *arguments: Any) -> Any:
+        if name not in space:
+            raise BotschoolError(f"{path} has no function {name}.")
+        try:
+            return space[name](*arguments)
+        except NotImplementedError:
+            raise BotschoolError(f"Write {name} in {path} first.") from None
+
+    return call

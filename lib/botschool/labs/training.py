@@ -5,19 +5,22 @@ post-evaluated return so far; mean return of this iteration's episodes (before t
 ended, the post-evaluation); newest post-evaluation; episodes so far.
 
 The genotype holds the network of the best post-evaluation, then its normalisation of observations.
+
+A learner is the student's own rule, which says how much each step of an episode counts.
 """
 
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from botschool.errors import BotschoolError
 from botschool.evolution.record import STAT, RunFiles
 from botschool.labs.declare import Condition
-from botschool.labs.learning import weigh
 from botschool.labs.saved import SavedRun, numbers, stat_of
 from botschool.output import save_npy
 from botschool.rl.native import PPO
@@ -133,3 +136,43 @@ def filled(experiment: dict[str, Any], genotype: np.ndarray) -> PPO | None:
     if ppo.normalize:
         ppo.core.observed = genotype[count:].reshape(2, -1)
     return ppo
+
+
+def whole_episodes(ended: np.ndarray) -> list[tuple[int, int, int]]:
+    """Return the episodes that begin and end in a rollout.
+
+    Each is (environment, first step, step after the last). ended: (n_steps, n_envs), other than 0
+    where an episode ends. The first episode of each environment is left out, because it may have
+    begun in an earlier rollout.
+    """
+    found = []
+    for environment in range(ended.shape[1]):
+        ends = np.flatnonzero(ended[:, environment]) + 1
+        found += [(environment, int(a), int(b)) for a, b in pairwise(ends)]
+    return found
+
+
+def weigh(rollout: Any, learner: Any, student: Any) -> None:
+    """Replace a rollout's advantages by the weights that the student's function returns.
+
+    learner: the function's name and its second argument. Steps of episodes that the rollout cuts
+    off get the weight 0. Raises BotschoolError if the function returns anything but numbers.
+    """
+    name, argument = learner
+    places = whole_episodes(rollout.ended)
+    rollout.advantages[:] = 0
+    rollout.returns[:] = rollout.values
+    if not places:
+        return
+    rewards = [np.array(rollout.rewards[a:b, e], dtype=np.float64) for e, a, b in places]
+    given = student(name, rewards, argument)
+    if not isinstance(given, (list, tuple)) or len(given) != len(places):
+        raise BotschoolError(f"{name} must return a list with an array for each episode.")
+    for (e, a, b), weights in zip(places, given, strict=True):
+        try:
+            array = np.asarray(weights, dtype=np.float64)
+        except (TypeError, ValueError):
+            array = np.zeros(0)
+        if array.shape != (b - a,) or not np.isfinite(array).all():
+            raise BotschoolError(f"{name} must return a finite number for each step of an episode.")
+        rollout.advantages[a:b, e] = array
