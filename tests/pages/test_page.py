@@ -29,9 +29,9 @@ from botschool.linear import power
 from botschool.page.training import page_data, settings_of, write_training_page
 from botschool.problems.native import NativeProblem
 from botschool.render.scenes import make_scene
+from botschool.rl.model import choose
 from botschool.rl.native import files, training
 from botschool.rl.native import problem as problem_of_training
-from botschool.rl.native.choosing import choose
 
 ROOT = Path(__file__).parents[2]
 SCRIPTS = ROOT / "lib/botschool/page"
@@ -251,9 +251,8 @@ console.log(JSON.stringify({
 def test_trainings_are_the_command_s(env, given, tmp_path):
     """Both model files byte by byte, with all parameters, and all post-evaluations."""
     small = {"n_steps": 64, "batch_size": 128, "n_epochs": 3}
-    settings = choose(
-        "native", "ppo", env, None, small | given, 20, 8000, 3, 4, 10, "", "dummy"
-    )  # fmt: skip
+    length = {"envs": 20, "steps": 8000, "seed": 3, "evaluations": 4, "episodes": 10}
+    settings = choose("ppo", env, params=small | given, engine="native", **length)
     run, found = training.learn(settings, tmp_path / "run", lambda steps, found: None)
     expected = {
         name: hashlib.sha256((run.path / name).read_bytes()).hexdigest()

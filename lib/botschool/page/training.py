@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,8 +13,8 @@ from botschool.errors import BotschoolError
 from botschool.output import check_output, save_bytes
 from botschool.page import assemble, encoded, picture
 from botschool.problems.native import NativeProblem
+from botschool.rl.model import choose
 from botschool.rl.native import files
-from botschool.rl.native.choosing import choose
 from botschool.rl.native.hyperparameters import Hyperparameters
 from botschool.rl.native.ppo import PPO
 from botschool.rl.native.problem import find
@@ -63,9 +64,7 @@ def write_training_page(
 def settings_of(env: str, seed: int) -> Settings:
     """Return what `botschool rl train` would train with. Raises BotschoolError."""
     find(env)
-    settings = choose("native", "ppo", env, None, {}, None, None, seed, 20, 20, "", "dummy")
-    assert settings is not None
-    return settings
+    return replace(choose("ppo", env, seed=seed, engine="native"), env=env)
 
 
 def _filled(ppo: PPO, model: Path) -> np.ndarray:

@@ -26,7 +26,7 @@ from botschool.seeds import libraries_kept, seed_libraries
 if TYPE_CHECKING:
     from stable_baselines3.common.base_class import BaseAlgorithm
 
-    from botschool.rl.native.agent import NativeAgent
+    from botschool.rl.native.files import NativeAgent
     from botschool.rl.settings import Settings
 
 NORMALISATION = "normalisation.npz"
@@ -82,16 +82,9 @@ class Agent:
         own = make(settings.env, settings.wrappers)
         if env is not None and env != settings.env:
             _check_same(settings.env, own, env, make(env, settings.wrappers))
-        if not path.exists():
-            raise BotschoolError(f"There is no model {path}: train one with `botschool rl train`.")
-        model = build(settings, own, small=True)
-        try:
+        with weights.reading(path):
+            model = build(settings, own, small=True)
             scaling = _fill(model, path, settings.normalize)
-        except Exception as error:  # a damaged file can fail in any way
-            raise BotschoolError(
-                f"{path} is damaged, or it is not a model of this training: take the other "
-                "model of its folder, or train again."
-            ) from error
         agent = cls(model, None if scaling is None else weights.normaliser(scaling))
         agent.scaling = scaling
         return agent
@@ -118,7 +111,7 @@ class Agent:
 
 
 def _native(path: Path, settings: Settings, env: str | None) -> NativeAgent:
-    from botschool.rl.native.agent import NativeAgent
+    from botschool.rl.native.files import NativeAgent
 
     if env is not None and env != settings.env:
         _check_same(settings.env, make(settings.env), env, make(env))

@@ -106,7 +106,7 @@ class PostEvaluation(BaseCallback):
             self.save()
             return
         best = -np.inf if self.found is None else self.found.best
-        self._append(returns, lengths)
+        self.found = Evaluations.after(self.found, self.num_timesteps, returns, lengths)
         if returns.mean() >= best:  # of two equal ones, keep the one that was trained longer
             save_model(self.model, self.run.best)
         self.save()
@@ -125,17 +125,6 @@ class PostEvaluation(BaseCallback):
         if not self._hurrying():
             self._asked = now
         return now > self._asked + PATIENCE
-
-    def _append(self, returns: np.ndarray, lengths: np.ndarray) -> None:
-        new = Evaluations(np.array([self.num_timesteps]), returns[None], lengths[None])
-        if self.found is not None:
-            old = self.found
-            new = Evaluations(
-                np.concatenate([old.steps, new.steps]),
-                np.concatenate([old.returns, new.returns]),
-                np.concatenate([old.lengths, new.lengths]),
-            )
-        self.found = new
 
 
 class Patience(BaseCallback):

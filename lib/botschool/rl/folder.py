@@ -52,6 +52,17 @@ class Evaluations:
     lengths: np.ndarray
     """int64, shape (n, episodes): steps of each episode."""
 
+    @classmethod
+    def after(
+        cls, before: Evaluations | None, steps: int, returns: np.ndarray, lengths: np.ndarray
+    ) -> Evaluations:
+        """Return all post-evaluations, with a new one after those before; returns: (episodes,)."""
+        new = np.array([steps]), returns[None], lengths[None].astype(np.int64)
+        if before is None:
+            return cls(*new)
+        old = before.steps, before.returns, before.lengths
+        return cls(*map(np.concatenate, zip(old, new, strict=True)))
+
     @property
     def best(self) -> float:
         """Return the mean return of the best post-evaluation, which best_model.zip reached."""

@@ -88,23 +88,42 @@ def choose(
     policy = None if policy is None else check_policy(policy, algo)
     if vec_env not in VEC_ENVS:
         raise BotschoolError(f"--vec-env is '{shown(vec_env)}', but must be dummy or subproc.")
-    native = choosing.choose(
-        engine,
-        algo,
-        env,
-        policy,
-        given,
-        envs,
-        steps,
-        seed,
-        evaluations,
-        episodes,
-        wrappers,
-        vec_env,
+    native = choosing.is_wanted(engine, algo, env, policy, given, wrappers, vec_env)
+    entry = choosing.entry_of(env) if native else defaults(algo, env)
+    length, width = entry.pop("steps"), entry.pop("envs")
+    width = width if envs is None else envs
+    own = (
+        choosing.settings_of(entry, given, width)
+        if native
+        else _settings_of(algo, env, policy, entry, given, width, wrappers)
     )
-    if native is not None:
-        return native
-    entry = defaults(algo, env)
+    return Settings(
+        algo=algo,
+        env=env,
+        seed=seed,
+        steps=length if steps is None else steps,
+        envs=width,
+        evaluations=evaluations,
+        episodes=episodes,
+        given=given,
+        vec_env=vec_env,
+        **own,
+    )
+
+
+def _settings_of(
+    algo: str,
+    env: str,
+    policy: str | None,
+    entry: dict[str, Any],
+    given: dict[str, Any],
+    envs: int,
+    wrappers: str,
+) -> dict[str, Any]:
+    """Return the part of the settings that Stable-Baselines3 needs; arguments as in `choose`.
+
+    entry: the defaults, which change.
+    """
     usual = [entry.pop(name, "") for name in ("wrappers", "training_wrappers")]
     wrappers, training_wrappers = usual if not wrappers else [wrappers, ""]
     wrappers = "" if wrappers == "none" else wrappers
@@ -117,13 +136,11 @@ def choose(
             f"{env} shows no images, so it cannot be trained with a {policy} policy (its "
             f"observations are {described(env_made.observation_space)}): leave out --policy."
         )
-    length, width = entry.pop("steps"), entry.pop("envs")
     normalize = _normalize(given, entry.pop("normalize", False), env_made)
-    width = width if envs is None else envs
     entry |= {name: value for name, value in given.items() if name != "normalize"}
     model_class = algorithm_class(algo, policy, isinstance(env_made.action_space, spaces.Discrete))
     if "nminibatches" in entry:
-        _share_batches(entry, model_class, width)
+        _share_batches(entry, model_class, envs)
     policy_class = policy_of(model_class, policy, env_made)
     if policy_class is None:
         raise BotschoolError(
@@ -132,23 +149,14 @@ def choose(
         )
     env_made.close()
     packages = ("stable_baselines3", "torch", "gymnasium", "numpy")
-    return Settings(
-        algo=algo,
-        env=env,
-        policy=policy,
-        seed=seed,
-        steps=length if steps is None else steps,
-        envs=width,
-        normalize=normalize,
-        evaluations=evaluations,
-        episodes=episodes,
-        parameters=complete(model_class, policy_class, entry, algo == "her"),
-        given=given,
-        versions={package: version(package) for package in packages},
-        wrappers=wrappers,
-        vec_env=vec_env,
-        training_wrappers=training_wrappers,
-    )
+    return {
+        "policy": policy,
+        "normalize": normalize,
+        "parameters": complete(model_class, policy_class, entry, algo == "her"),
+        "versions": {package: version(package) for package in packages},
+        "wrappers": wrappers,
+        "training_wrappers": training_wrappers,
+    }
 
 
 def _share_batches(entry: dict[str, Any], model_class: type[BaseAlgorithm], envs: int) -> None:

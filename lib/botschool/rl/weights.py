@@ -9,7 +9,8 @@ folder names the policy of the weights.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,6 +18,7 @@ from zipfile import ZipFile
 
 import numpy as np
 
+from botschool.errors import BotschoolError
 from botschool.npy import opened
 from botschool.output import save_npz
 
@@ -39,6 +41,22 @@ MOST_BYTES = 2**28
 """Largest size in memory; larger files are refused."""
 
 Normalise = Callable[[np.ndarray], np.ndarray]
+
+
+@contextmanager
+def reading(path: Path) -> Iterator[None]:
+    """Read a model's file in the block. Raises BotschoolError if it is missing or damaged."""
+    if not path.exists():
+        raise BotschoolError(f"There is no model {path}: train one with `botschool rl train`.")
+    try:
+        yield
+    except BotschoolError:
+        raise
+    except Exception as error:  # a damaged file can fail in any way
+        raise BotschoolError(
+            f"{path} is damaged, or it is not a model of this training: take the other "
+            "model of its folder, or train again."
+        ) from error
 
 
 def save(path: Path, policy: BasePolicy, scaling: Mapping[str, np.ndarray] | None) -> None:

@@ -68,59 +68,49 @@ def entry_of(env: str) -> dict[str, Any]:
     return defaults("native" if has_defaults("native", env) else "ppo", env)
 
 
-def choose(
+def is_wanted(
     engine: str,
     algo: str,
     env: str,
     policy: str | None,
     given: dict[str, Any],
-    envs: int | None,
-    steps: int | None,
-    seed: int,
-    evaluations: int,
-    episodes: int,
     wrappers: str,
     vec_env: str,
-) -> Settings | None:
-    """Return the settings of a native training, or None if Stable-Baselines3 must train.
+) -> bool:
+    """Return whether the native engine trains this. Raises BotschoolError if it should but cannot.
 
-    Raises BotschoolError if the user asks for the native engine and it cannot train this.
+    given: the user's hyperparameters.
     """
-    check_engine(engine)
-    if engine == "sb3":
-        return None
+    if check_engine(engine) == "sb3":
+        return False
     entry = entry_of(env) if native_problem(env) else {}
     against = reason_against(algo, env, policy, entry | given, wrappers, vec_env)
-    if against:
-        if engine == "native":
-            raise BotschoolError(
-                f"The native engine cannot train this ({against}): choose another --engine."
-            )
-        return None
-    length, width = entry.pop("steps"), entry.pop("envs")
+    if against and engine == "native":
+        raise BotschoolError(
+            f"The native engine cannot train this ({against}): choose another --engine."
+        )
+    return not against
+
+
+def settings_of(entry: dict[str, Any], given: dict[str, Any], envs: int) -> dict[str, Any]:
+    """Return the native engine's own part of the settings.
+
+    entry: the defaults, which change; given: the user's hyperparameters. Raises BotschoolError.
+    """
     normalize = given.get("normalize", entry.pop("normalize", False))
     if not isinstance(normalize, bool):
         raise BotschoolError(f"normalize is {normalize}, but must be true or false.")
     entry.pop("normalize", None)
-    width = width if envs is None else envs
     entry |= {name: value for name, value in given.items() if name != "normalize"}
     for name in ONLY_SB3:
         entry.pop(name, None)
     if "nminibatches" in entry:
         n_steps = entry.get("n_steps", Hyperparameters.n_steps)
-        entry["batch_size"] = spellings.batch_size(entry.pop("nminibatches"), n_steps, width)
-    return Settings(
-        algo=algo,
-        env=env,
-        policy="mlp",
-        seed=seed,
-        steps=length if steps is None else steps,
-        envs=width,
-        normalize=normalize,
-        evaluations=evaluations,
-        episodes=episodes,
-        parameters=asdict(Hyperparameters.of(entry)),
-        given=given,
-        versions={package: version(package) for package in ("botschool", "numpy")},
-        engine="native",
-    )
+        entry["batch_size"] = spellings.batch_size(entry.pop("nminibatches"), n_steps, envs)
+    return {
+        "policy": "mlp",
+        "normalize": normalize,
+        "parameters": asdict(Hyperparameters.of(entry)),
+        "versions": {package: version(package) for package in ("botschool", "numpy")},
+        "engine": "native",
+    }

@@ -1,8 +1,12 @@
-"""Read and write the weights (by Stable-Baselines3's names) and checkpoint of a native training."""
+"""Read and write the weights (by Stable-Baselines3's names) and checkpoint of a native training.
+
+A trained native agent acts in Gymnasium environments, too, without torch.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -12,7 +16,7 @@ from botschool.rl.native import sb3
 from botschool.rl.native.hyperparameters import Hyperparameters
 from botschool.rl.native.ppo import PPO
 from botschool.rl.settings import Settings
-from botschool.rl.weights import NORMALISATION, numbers
+from botschool.rl.weights import NORMALISATION, numbers, reading
 
 CHECKPOINT = "checkpoint.npz"
 
@@ -73,3 +77,24 @@ def load_checkpoint(folder: Path) -> dict[str, np.ndarray]:
         ) from None
     except Exception:  # a damaged file can fail in any way
         raise BotschoolError(f"{path} is damaged: train again.") from None
+
+
+class NativeAgent:
+    """A native agent with the interface of botschool.rl.agent.Agent."""
+
+    def __init__(self, ppo: PPO) -> None:
+        self.ppo = ppo
+
+    @classmethod
+    def load(cls, path: Path, settings: Settings) -> NativeAgent:
+        """Return the model in a file of a native training's folder. Raises BotschoolError."""
+        with reading(path):
+            ppo = make(settings)
+            fill(ppo, path)
+        return cls(ppo)
+
+    def act(
+        self, observations: Any, state: Any = None, starts: np.ndarray | None = None
+    ) -> tuple[np.ndarray, Any]:
+        """Return the most probable actions for observations (n, inputs)."""
+        return self.ppo.act(np.asarray(observations)), None

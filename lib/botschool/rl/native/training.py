@@ -128,13 +128,7 @@ class _Watched:
         seeds = np.full(len(episodes), self.settings.seed + POST_EVALUATION_SEED, dtype=np.uint64)
         returns, lengths = self.ppo.core.play(seeds, episodes)
         best = -np.inf if self.found is None else self.found.best
-        steps, old = np.array([self.ppo.steps]), self.found
-        new = (steps, returns[None], lengths[None].astype(np.int64))
-        if old is not None:
-            both = zip((old.steps, old.returns, old.lengths), new, strict=True)
-            self.found = Evaluations(*(np.concatenate(pair) for pair in both))
-        else:
-            self.found = Evaluations(*new)
+        self.found = Evaluations.after(self.found, self.ppo.steps, returns, lengths)
         if returns.mean() >= best:  # of two equal ones, keep the one that was trained longer
             files.save_model(self.ppo, self.run.path / "best_model.npz")
         self.run.save_evaluations(self.found)
