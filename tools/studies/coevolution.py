@@ -22,31 +22,21 @@ from coevolution_plan import PLANS, Plan, complete, runs
 from coevolution_queue import Queue
 from study import ROOT, keep, stamp
 
+from botschool.errors import BotschoolError
+from botschool.lock import locked
+
 
 def run(folder: Path, plans: tuple[Plan, ...], processes: int) -> int:
     """The exit code: 0 if all is done."""
     folder.mkdir(parents=True, exist_ok=True)
-    if not _alone(folder):
-        print(f"Another process works on {folder}.", file=sys.stderr)
-        return 2
     if hasattr(os, "nice"):
         os.nice(19)
-    return 0 if Queue(folder, plans).work(processes) else 1
-
-
-def _alone(folder: Path) -> bool:
-    """Whether no other process holds the folder's lock; this one does from now on."""
     try:
-        import fcntl
-    except ImportError:  # Windows
-        return True
-    lock = os.open(folder / ".lock", os.O_CREAT | os.O_RDWR)
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        return False
-    os.set_inheritable(lock, False)
-    return True
+        with locked(folder, "the study"):
+            return 0 if Queue(folder, plans).work(processes) else 1
+    except BotschoolError as error:
+        print(error, file=sys.stderr)
+        return 2
 
 
 def state(folder: Path, plans: tuple[Plan, ...]) -> None:

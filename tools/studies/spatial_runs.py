@@ -6,25 +6,23 @@ EXPERIMENT is a file of data/experiments, SECONDS of the processor the longest s
 of `botschool es -f EXPERIMENT -s SEED`, on one core. Every second of it, its best post-evaluated
 robot runs new episodes, which does not count in the times and changes nothing. The run ends when
 the ant runs 3 m/s, or the humanoid lives 20 s, without a fall in any of them. Results go to
-tools/studies/data/spatial.jsonl, robots to results/spatial.
+tools/studies/data/spatial.jsonl, robots to results/spatial; what is there is not run again.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
 import time
-from pathlib import Path
+from functools import partial
 
 import numpy as np
+from study import DATA, EXPERIMENTS, ROOT, Results
 
 from botschool import config
 from botschool.evolution.run import Run
 from botschool.output import save_npy
 from botschool.problems import Episodes
 
-ROOT = Path(__file__).parents[2]
-FOUND = Path(__file__).parent / "data" / "spatial.jsonl"
 NEW_SEED, NEW = 2_000_000, 20
 """Seed and number of the new episodes."""
 EVERY = 1.0
@@ -65,7 +63,7 @@ class Trial:
 
 def search(name: str, seed: int, longest: float) -> dict:
     """Return what a run found, with its curve."""
-    run = Run(config.load(ROOT / "data" / "experiments" / f"{name}.ini"), seed)
+    run = Run(config.load(EXPERIMENTS / f"{name}.ini"), seed)
     trial, spent, looked, met, curve = Trial(run), 0.0, 0.0, {}, []
     folder = ROOT / "results" / "spatial"
     folder.mkdir(parents=True, exist_ok=True)
@@ -89,18 +87,17 @@ def search(name: str, seed: int, longest: float) -> dict:
                 print(name, seed, goal, point, flush=True)
         if goal in met:
             break
-    return {"experiment": name, "seed": seed, "met": met, "end": curve[-1], "curve": curve}
+    return {"met": met, "end": curve[-1], "curve": curve}
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Measure seeds and append a line for each to the results."""
+    """Measure seeds, and keep a line for each."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("experiment")
     parser.add_argument("seconds", type=float)
     parser.add_argument("seeds", type=int, nargs="+")
     given = parser.parse_args(arguments)
+    results = Results(DATA / "spatial.jsonl")
     for seed in given.seeds:
-        found = search(given.experiment, seed, given.seconds)
-        with open(FOUND, "a") as file:
-            file.write(json.dumps(found) + "\n")
-        print(given.experiment, seed, "ends with", found["end"], flush=True)
+        run = partial(search, given.experiment, seed, given.seconds)
+        results.do({"experiment": given.experiment, "seed": seed}, run)

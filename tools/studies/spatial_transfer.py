@@ -12,19 +12,19 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from study import EXPERIMENTS
 
 from botschool import config, problems
 from botschool.problems import Episodes
 from botschool.seeds import POST_EVALUATION_SEED
 
-ROOT = Path(__file__).parents[2]
 STARTS = 10
 APART = "botschool.envs.wrappers:LimbsApart"
 
 
 def walked(body: str, saved: np.ndarray, wrappers: str) -> str:
     """Return a cell: seconds until a fall and metres a second in ten starts."""
-    experiment = config.load(ROOT / "data" / "experiments" / f"spatial{body}_mujoco.ini")
+    experiment = config.load(EXPERIMENTS / f"spatial{body}_mujoco.ini")
     experiment.exp = replace(experiment.exp, wrappers=wrappers)
     problem = problems.of(experiment)
     policy = problem.policy(experiment.policy)
