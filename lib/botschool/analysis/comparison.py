@@ -12,12 +12,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from botschool.analysis.figure import PICTURE_SUFFIXES, cycle, new_figure
+from botschool.analysis.figure import check_picture, cycle, new_figure, tidy_rows
 from botschool.analysis.plots import FITNESS
 from botschool.analysis.runs import common_title, named, problem_of, read_fitness, warn
 from botschool.analysis.trainings import has_trainings
 from botschool.errors import BotschoolError
-from botschool.output import check_output
 from botschool.rl.folder import find_runs
 from botschool.seeds import Numbers, generator
 from botschool.terminal import readable
@@ -103,8 +102,7 @@ def compare_command(folders: tuple[Path, Path], output: Path | None) -> None:
     """Print the comparison of two folders, and draw both as boxes. Raises BotschoolError."""
     if folders[0].resolve() == folders[1].resolve():
         raise BotschoolError(f"{folders[0]} is compared with itself: name two folders.")
-    if output is not None:
-        check_output(output, PICTURE_SUFFIXES)
+    check_picture(output)
     results = read_results(folders)
     (a, first), (b, second) = results.items()
     about = {problem_of(folder).partition(",")[0] for folder in folders}
@@ -161,8 +159,7 @@ def read_results(folders: Sequence[Path]) -> dict[str, np.ndarray]:
 
 def plot_boxes(folders: Sequence[Path | str], output: Path | None) -> None:
     """Draw the fitness of the best robot of each run as a box a folder."""
-    if output is not None:
-        check_output(output, PICTURE_SUFFIXES)
+    check_picture(output)
     paths = [Path(folder) for folder in folders]
     draw_results(read_results(paths), paths, output)
 
@@ -189,11 +186,5 @@ def _draw_boxes(axes: Axes, results: dict[str, np.ndarray]) -> None:
         spread = 0.16 * np.sin(1.0 + 2.4 * np.arange(len(values)))
         axes.plot(values, row + spread, "o", color=colour, mec="white", mew=0.6, ms=6, zorder=3)
         labels.append(f"{name}\nmedian {readable(median)} (n = {len(values)})")
-    axes.set_yticks(range(len(labels)), labels)
-    axes.set_ylim(len(labels) - 0.4, -0.6)
+    tidy_rows(axes, labels, 0.6, 0.6)
     axes.set_xlabel(f"{FITNESS}; box: quartiles, line: median")
-    axes.ticklabel_format(axis="x", useOffset=False)
-    axes.grid(axis="x", color="#DDDDDD", lw=0.6)
-    axes.set_axisbelow(True)
-    axes.spines[["top", "right", "left"]].set_visible(False)
-    axes.tick_params(axis="y", length=0)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
@@ -33,6 +33,28 @@ def _layout(height: float, width: float) -> dict[str, Any]:
 
     engine = ConstrainedLayoutEngine(w_pad=0.12, h_pad=0.12)
     return {"figsize": (width, height), "dpi": 100, "layout": engine}
+
+
+def check_picture(output: Path | str | None) -> None:
+    """Check a picture's name before the work for it begins. Raises BotschoolError."""
+    if output is not None:
+        check_output(output, PICTURE_SUFFIXES)
+
+
+def tidy(axes: Any, grid: Any = "both", sides: Sequence[str] = ("top", "right")) -> None:
+    """Draw a light grid below the data, and no frame on these sides."""
+    axes.grid(axis=grid, color="#DDDDDD", lw=0.6)
+    axes.set_axisbelow(True)
+    axes.spines[list(sides)].set_visible(False)
+
+
+def tidy_rows(axes: Any, labels: Sequence[str], above: float, below: float) -> None:
+    """Finish a picture with a row for each label, from the top to the bottom."""
+    axes.set_yticks(range(len(labels)), labels)
+    axes.set_ylim(len(labels) - 1 + below, -above)
+    axes.ticklabel_format(axis="x", useOffset=False)
+    tidy(axes, "x", ("top", "right", "left"))
+    axes.tick_params(axis="y", length=0)
 
 
 @contextmanager

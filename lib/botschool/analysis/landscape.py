@@ -9,11 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from botschool import problems
-from botschool.analysis.figure import PICTURE_SUFFIXES, new_figure
+from botschool.analysis.figure import check_picture, new_figure
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.evolution.evaluate import means
-from botschool.output import check_output
 from botschool.policies.policy import Policy
 from botschool.problems import Episodes, Problem
 from botschool.seeds import POST_EVALUATION_SEED, generator
@@ -75,8 +74,7 @@ def landscape_command(
             f"{experiment.exp.environment} has two sides, whose fitness depends on the other one: "
             "a landscape is for one robot."
         )
-    if output is not None:
-        check_output(output, PICTURE_SUFFIXES)
+    check_picture(output)
     problem = problems.of(experiment)
     policy = problem.policy(experiment.policy)
     places = np.linspace(-reach, reach, points)

@@ -13,14 +13,13 @@ import numpy as np
 
 from botschool import problems
 from botschool.analysis.coevolution import only_seed
-from botschool.analysis.figure import PICTURE_SUFFIXES, new_figure
+from botschool.analysis.figure import check_picture, new_figure
 from botschool.analysis.populations import Populations
 from botschool.analysis.runs import find_runs, told_by
 from botschool.config import Experiment, from_dict
 from botschool.errors import BotschoolError
 from botschool.evolution.evaluate import means
 from botschool.npy import NotNumbers, read_numbers
-from botschool.output import check_output
 from botschool.problems import Episodes
 from botschool.render.watch import read_genotype
 from botschool.terminal import readable
@@ -39,8 +38,7 @@ def plot_matrix(folder: Path, seed: int | None, output: Path | None) -> None:
 
     Raises BotschoolError.
     """
-    if output is not None:
-        check_output(output, PICTURE_SUFFIXES)
+    check_picture(output)
     told = told_by(folder)
     if told is None:
         raise BotschoolError(

@@ -11,7 +11,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from botschool.analysis.figure import COLOURS, PICTURE_SUFFIXES, NoDisplay, cycle, new_figure
+from botschool.analysis.figure import (
+    COLOURS,
+    NoDisplay,
+    check_picture,
+    cycle,
+    new_figure,
+    tidy,
+    tidy_rows,
+)
 from botschool.analysis.runs import (
     BEST_POST,
     GENERATION_AVERAGE,
@@ -36,7 +44,6 @@ from botschool.analysis.trainings import (
     read_trainings,
 )
 from botschool.evolution import fresh
-from botschool.output import check_output
 from botschool.terminal import readable
 
 if TYPE_CHECKING:
@@ -151,8 +158,7 @@ def plot_ave(targets: Sequence[Path | str], output: Path | str | None = None) ->
     picture is drawn; without a display, a note replaces the picture. Raises BotschoolError.
     """
     folders = [Path(target) for target in targets]
-    if output is not None:
-        check_output(output, PICTURE_SUFFIXES)
+    check_picture(output)
     fitness = {
         name: np.array(list(read_fitness(folder, warn).values()))
         for name, folder in named(folders).items()
@@ -318,9 +324,7 @@ def _finish(axes: Axes, title: str, words: _Words) -> None:
     axes.set_xlim(left=0.0)
     axes.xaxis.set_major_formatter(lambda steps, _position: format_steps(steps))
     axes.ticklabel_format(axis="y", useOffset=False)
-    axes.grid(color="#DDDDDD", lw=0.6)
-    axes.set_axisbelow(True)
-    axes.spines[["top", "right"]].set_visible(False)
+    tidy(axes)
     handles, labels = axes.get_legend_handles_labels()
     axes.legend(handles[::-1], labels[::-1], frameon=False)
 
@@ -381,13 +385,7 @@ def _draw_bars(axes: Axes, fitness: dict[str, np.ndarray]) -> None:
             axes.errorbar(mean, row, xerr=sd, color="black", capsize=6, lw=1.5, zorder=3)
             plus_minus = f" \u00b1 {written(sd)}"
         labels.append(f"{name}\n{written(mean)}{plus_minus}  (n = {len(values)})")
-    axes.set_yticks(range(len(labels)), labels)
     margin = 0.9 if len(labels) == 1 else 0.5
-    axes.set_ylim(len(labels) - 1 + margin, -margin)
+    tidy_rows(axes, labels, margin, margin)
     axes.axvline(0.0, color="black", lw=0.8)
     axes.set_xlabel(FITNESS)
-    axes.ticklabel_format(axis="x", useOffset=False)
-    axes.grid(axis="x", color="#DDDDDD", lw=0.6)
-    axes.set_axisbelow(True)
-    axes.spines[["top", "right", "left"]].set_visible(False)
-    axes.tick_params(axis="y", length=0)

@@ -9,14 +9,14 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from io import StringIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from rich import box
 from rich.console import Console
 from rich.table import Table as Grid
 
-from botschool.analysis.figure import PICTURE_SUFFIXES, new_figure
+from botschool.analysis.figure import PICTURE_SUFFIXES, new_figure, tidy
 from botschool.analysis.tournament import (
     ROLES,
     Estimate,
@@ -316,7 +316,7 @@ def _draw_profiles(page: Figure | SubFigure, tables: tuple[Table, Table], genera
             )
         axes.set_title(f"{table.role} against ancient and future {_other(table)}")
         axes.set_xlabel(f"generation of the {_other(table)} (dot: of the same generation)")
-        _tidy(axes)
+        tidy(axes)
         if shared:
             axes.set(ylim=(-0.05, 1.25), yticks=np.linspace(0, 1, 6))  # leave room for the legend
         else:
@@ -337,7 +337,7 @@ def _draw_overall(axes: Axes, tables: tuple[Table, Table], generations) -> None:
     axes.set_title("against competitors of all generations")
     axes.set_xlabel("generation")
     axes.set_ylabel("mean fitness, 95 % interval")
-    _tidy(axes)
+    tidy(axes)
     axes.legend(frameon=False)
 
 
@@ -364,12 +364,6 @@ def _draw_progress(axes: Axes, tables: tuple[Table, Table]) -> None:
     axes.margins(x=0.15)
     axes.set_title("progress: above 0, later generations do better")
     axes.set_xlabel("gain of a later over an earlier generation, in fitness")
-    _tidy(axes, "x")
+    tidy(axes, "x")
     axes.spines["left"].set_visible(False)
     axes.tick_params(axis="y", length=0)
-
-
-def _tidy(axes: Axes, grid: Any = "both") -> None:
-    axes.grid(axis=grid, color="#DDDDDD", lw=0.6)
-    axes.set_axisbelow(True)
-    axes.spines[["top", "right"]].set_visible(False)
