@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -245,11 +247,14 @@ def shown_name(entry: Entry) -> str:
 
 def results_csv(league: League) -> bytes:
     """Return all results with the names of the files as CSV, for the instructor."""
-    from botschool.grading.classes.tables import made_table
+    from botschool.grading.classes.tables import safe_cell
 
-    rows = [
-        [discipline, r.rank, r.entry.name, f"{r.result:.4g}", UNITS[discipline], r.entry.file]
-        for discipline, places in league.tables.items()
-        for r in places
-    ]
-    return made_table([["discipline", "rank", "name", "result", "unit", "file"], *rows])
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(["discipline", "rank", "name", "result", "unit", "file"])
+    for discipline, places in league.tables.items():
+        for each in places:
+            name, file = safe_cell(each.entry.name), safe_cell(each.entry.file)
+            row = [discipline, each.rank, name, f"{each.result:.4g}", UNITS[discipline], file]
+            writer.writerow(row)
+    return stream.getvalue().encode("utf-8-sig", "replace")
