@@ -154,6 +154,7 @@ class Column:
     only: str = ""
     """Beginning of the names of the conditions whose rows have this column."""
     unit: float = 1
+    """The table shows the numbers divided by this."""
 
     def of(self, values: Mapping[str, np.ndarray]) -> tuple[float, ...]:
         """Return one number of a condition's measurements, or the two ends of an interval."""
