@@ -63,7 +63,6 @@ def messages(server, tmp_path):
 def command(capfd, monkeypatch):
     """Call the command in this process; return (exit code, standard output, standard error)."""
     from botschool import cli
-    from running import TESTS
 
     def call(*arguments):
         monkeypatch.setattr(sys, "argv", ["botschool", *map(str, arguments)])
@@ -73,7 +72,6 @@ def command(capfd, monkeypatch):
         code = 0 if end.value.code is None else end.value.code
         return (code, *capfd.readouterr())
 
-    monkeypatch.syspath_prepend(TESTS)
     return call
 
 

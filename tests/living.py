@@ -2,10 +2,13 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from botschool import _core
 from botschool.page.exercise import exercise_page
 from botschool.page.markdown import FIGURE
+from botschool.problems.native import NativeProblem
 
 ROOT = Path(__file__).parents[1]
 BUILT = (ROOT / "lib/botschool/page/spatial.wasm").exists()
@@ -92,3 +95,32 @@ def slide(browser, name, key, value):
 def state(browser, name):
     """Return a figure's state."""
     return browser.run(f"figures.{name}.state")
+
+
+class Stepped:
+    """A saved robot in a post-evaluation of seed 1, step by step in Python."""
+
+    def __init__(self, experiment, saved, limit, episode=0, body=None):
+        problem = NativeProblem(experiment.exp.environment)
+        self.policy = problem.policy(experiment.policy)
+        self.policy.load(*self.policy.split(saved))
+        self.policy.reset(100_001, episode)
+        self.stepper = _core.make_stepper(problem.dynamics)
+        self.stepper.set(limit)
+        if body is not None:
+            self.stepper.set_body(body)
+        self.stepper.start(100_001, episode)
+        self.total, self.steps, self.ended = 0.0, 0, False
+
+    def run(self, steps, action=None, blind=()):
+        """Go on until the episode ends, with the robot's own action or another."""
+        for _ in range(steps):
+            if self.ended:
+                break
+            seen = self.stepper.observation
+            seen[list(blind)] = 0
+            own = np.atleast_1d(self.policy.act(seen)).astype(float)
+            reward, self.ended = self.stepper.step(own if action is None else np.array([action]))
+            self.total += reward
+            self.steps += 1
+        return self

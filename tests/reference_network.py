@@ -330,3 +330,13 @@ def random_normalisation(spec, rng):
 def keeps_memory(spec) -> bool:
     """Return whether a step depends on the previous ones."""
     return architecture_of(spec) != FEEDFORWARD
+
+
+def philox(key, counter):
+    """Philox4x32-10 (Salmon et al. 2011), in whole numbers."""
+    (a, b, c, d), (k, m), word = counter, (key % 2**32, key >> 32), 2**32
+    for _ in range(10):
+        p, q = 0xD2511F53 * a, 0xCD9E8D57 * c
+        a, b, c, d = (q // word) ^ b ^ k, q % word, (p // word) ^ d ^ m, p % word
+        k, m = (k + 0x9E3779B9) % word, (m + 0xBB67AE85) % word
+    return a, b, c, d

@@ -27,17 +27,12 @@ from reference_network import (
     random_normalisation,
     read,
 )
-from running import TESTS, experiment, run_seeds, same, write_experiment
+from running import experiment, run_seeds, same, write_experiment
 
 POLICY = {
     "architecture": 4, "afunction": 5, "filters": "4, 6", "kernels": "8, 3", "strides": "4, 2",
     "bias": 1, "nhiddens": 5,
 }  # fmt: skip
-
-
-@pytest.fixture(autouse=True)
-def own_environments(monkeypatch):
-    monkeypatch.syspath_prepend(TESTS)
 
 
 def spec_of(image=(2, 7, 6), filters=(3, 2), kernels=(3, 2), strides=(2, 1), **changes):

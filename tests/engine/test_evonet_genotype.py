@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from botschool.net import Network, NetworkSpec
-from reference_network import genotype_length, matrices, parse
+from reference_network import genotype_length, matrices, parse, philox
 
 
 def spec_of(**changes) -> NetworkSpec:
@@ -252,16 +252,6 @@ def test_initial_weights_are_a_function_of_seed_and_index(winit):
             draws[seed, index] = one.initialise().copy()
             assert np.array_equal(draws[seed, index], other.initialise())
     assert len({tuple(np.sort(d).tolist()) for d in draws.values()}) == len(draws)
-
-
-def philox(key, counter):
-    """Philox4x32-10 (Salmon et al. 2011), in whole numbers."""
-    (a, b, c, d), (k, m), word = counter, (key % 2**32, key >> 32), 2**32
-    for _ in range(10):
-        p, q = 0xD2511F53 * a, 0xCD9E8D57 * c
-        a, b, c, d = (q // word) ^ b ^ k, q % word, (p // word) ^ d ^ m, p % word
-        k, m = (k + 0x9E3779B9) % word, (m + 0xBB67AE85) % word
-    return a, b, c, d
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2**32 + 5, 2**64 - 1])

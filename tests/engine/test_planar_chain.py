@@ -9,17 +9,13 @@ import pytest
 
 from botschool import _core
 from botschool.envs.morphology import MORPHOLOGY_SIZE, decode
+from test_planar_dynamics import Moving, full_mass_matrix, mjcf, turned
 
 G = 10.0
 BODIES = 0.6 * np.random.default_rng(1).normal(size=(3, MORPHOLOGY_SIZE))
 STRAIGHT = np.zeros(MORPHOLOGY_SIZE)
 LIMITS = slice(22, 42)
 RODS = 11
-
-
-def turned(vector, angle):
-    (x, z), c, s = vector, math.cos(angle), math.sin(angle)
-    return np.array([x * c - z * s, x * s + z * c])
 
 
 def start_angles(parameters):
@@ -50,27 +46,6 @@ def test_parameters_mean_what_they_mean_to_box2ds_chain():
         assert np.array(ends)[:, 2] == pytest.approx(np.repeat(body.thicknesses, 2) / 2)
 
 
-def mjcf(table):
-    """The same chain for MuJoCo, without contacts, limits and motors."""
-
-    def body(i):
-        rod = table["segments"][i]
-        mass, x, z, inertia = table["masses"][i].tolist()
-        text = f'<body pos="{rod["x"]!r} 0 0">'
-        if i == 0:
-            text += '<joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/>'
-        text += f'<joint type="hinge" axis="0 -1 0" limited="false" damping="{rod["damping"]!r}" '
-        text += f'armature="{rod["armature"]!r}"/>'
-        text += f'<inertial pos="{x!r} 0 {z!r}" mass="{mass!r}" '
-        text += f'diaginertia="{inertia!r} {inertia!r} {inertia!r}"/>'
-        if i + 1 < RODS:
-            text += body(i + 1)
-        return text + "</body>"
-
-    return f"""<mujoco><option gravity="0 0 -{G}"><flag contact="disable"/></option>
-    <worldbody>{body(0)}</worldbody></mujoco>"""
-
-
 def motor_torques(action, rates):
     """5 rad/s in the direction of the action, with at most 90 N m times its size."""
     strength, gap = 90 * np.minimum(np.abs(action), 1), 5 * np.sign(action) - rates
@@ -86,7 +61,7 @@ def test_accelerations_and_mass_matrix_are_those_of_mujoco(number):
     p[LIMITS] = np.tile([-1.0, 1.0], 10)
     chain = _core.PlanarBody(p)
     rest = np.array([np.mean(rod["range"]) for rod in chain.table["segments"][1:]])
-    model = mujoco.MjModel.from_xml_string(mjcf(chain.table))
+    model = mujoco.MjModel.from_xml_string(mjcf(chain.table, gravity=G, capsules=False))
     data = mujoco.MjData(model)
     form = np.eye(chain.size)  # (x, z, absolute angles) = form (x, z, angle, hinge angles)
     form[2:, 2:] = np.tri(RODS)
@@ -98,57 +73,28 @@ def test_accelerations_and_mass_matrix_are_those_of_mujoco(number):
         data.qpos, data.qvel = q, v
         data.qfrc_applied[3:] = motor_torques(action, v[3:])
         mujoco.mj_forward(model, data)
-        theirs = np.zeros((model.nv, model.nv))
-        mujoco.mj_fullM(model, theirs, data.qM)
+        theirs = full_mass_matrix(mujoco, model, data)
         ours = form.T @ chain.mass_matrix(form @ q) @ form
         assert np.abs(ours - theirs).max() <= 1e-9 * np.abs(theirs).max()
         acceleration = np.linalg.solve(form, chain.accelerations(form @ q, form @ v, action, G))
         assert np.abs(acceleration - data.qacc).max() <= 1e-9 * np.abs(data.qacc).max()
 
 
-class Moving:
+class Chain(Moving):
     """A chain that is simulated, with its state at hand."""
 
-    def __init__(self, parameters, height=5.0, single=False):
-        self.body, self.single = _core.PlanarBody(parameters), single
-        self.masses, self.lengths = self.body.table["masses"], decode(parameters).lengths
-        self.q, self.v = np.zeros((2, self.body.size))
-        self.q[1] = height
-        self.q[2:] = np.cumsum(start_angles(parameters))
-        self.load = np.zeros(2 * RODS)
-
-    def advance(self, h, steps, action=None, **around):
-        action = np.zeros(RODS - 1) if action is None else action
-        state = np.concatenate([self.q, self.v])
-        options = {"gravity": G, "single": self.single} | around
-        state, self.load = self.body.advance(state, action, h, steps, **options)
-        self.q, self.v = state.reshape(2, -1)
-
-    def along(self):
-        """From the rear to the front end of each rod."""
-        return np.array([turned((length, 0), a) for length, a in zip(self.lengths, self.q[2:])])  # noqa: B905
+    def __init__(self, parameters, height=5.0):
+        angles = np.cumsum(start_angles(parameters))
+        super().__init__(parameters, angles, height, gravity=G)
 
     def lift(self, gap):
         """So that the lowest ball is `gap` above the ground."""
-        self.q[1] = 0
-        radii = np.array([contact[3] for contact in self.body.table["contacts"]])
-        rears = np.concatenate([[0.0], np.cumsum(self.along()[:, 1])])
-        self.q[1] = gap - (np.stack([rears[:-1], rears[1:]], axis=1).ravel() - radii).min()
-
-    def centres(self):
-        along = self.along()
-        return self.q[:2] + np.cumsum(along, axis=0) - along / 2
-
-    def energy(self):
-        kinetic = self.v @ self.body.mass_matrix(self.q) @ self.v / 2
-        return kinetic + G * self.masses[:, 0] @ self.centres()[:, 1]
-
-    def momentum(self):
-        """Along x and z, and the angular momentum about the centre of mass."""
-        generalised = self.body.mass_matrix(self.q) @ self.v
-        arm = self.masses[:, 0] @ self.centres() / self.masses[:, 0].sum() - self.q[:2]
-        turning = generalised[2:].sum() - (arm[0] * generalised[1] - arm[1] * generalised[0])
-        return np.array([*generalised[:2], turning])
+        heights = [
+            (origin + turned(x, z, self.q[2 + rod]))[1] - radius
+            for rod, x, z, radius in self.body.table["contacts"]
+            for origin in [self.origins()[rod]]
+        ]
+        self.q[1] += gap - min(heights)
 
 
 def test_momentum_is_kept_in_flight():
@@ -156,7 +102,7 @@ def test_momentum_is_kept_in_flight():
     for p in BODIES:
         errors = []
         for h in (0.001, 0.00025):
-            flying = Moving(p, height=100.0)
+            flying = Chain(p, height=100.0)
             rng = np.random.default_rng(3)
             flying.v[:] = rng.normal(0, 1, flying.body.size)
             flying.advance(h, round(0.02 / h))
@@ -172,7 +118,7 @@ def test_momentum_is_kept_in_flight():
 
 
 def test_a_stick_rests_on_the_ground_and_slides_from_its_friction_angle_on():
-    lying = Moving(STRAIGHT, height=0.11)
+    lying = Chain(STRAIGHT, height=0.11)
     lying.advance(0.001, 2000)
     there = lying.q.copy()
     assert np.abs(lying.v).max() < 1e-3
@@ -181,7 +127,7 @@ def test_a_stick_rests_on_the_ground_and_slides_from_its_friction_angle_on():
     assert lying.load.sum() == pytest.approx(lying.masses[:, 0].sum() * G, rel=1e-3)
     for share, slides in ((0.9, False), (1.1, True)):  # friction is 2.5
         angle = math.atan(2.5 * share)
-        lying = Moving(STRAIGHT, height=0.1 / math.cos(angle))
+        lying = Chain(STRAIGHT, height=0.1 / math.cos(angle))
         lying.q[2:] = angle
         lying.advance(0.001, 500, slope=2.5 * share)
         before = lying.v[:2].copy()
@@ -191,19 +137,9 @@ def test_a_stick_rests_on_the_ground_and_slides_from_its_friction_angle_on():
         assert gain / 0.5 == pytest.approx(down if slides else 0, abs=0.05)
 
 
-@pytest.mark.parametrize("depth", [0.0002, 0.0008, 0.003])
-@pytest.mark.parametrize("speed", [-0.05, 0.02, 1.0])
-def test_contacts_are_those_of_the_planar_runners(depth, speed):
-    lying = Moving(STRAIGHT, height=0.1 - depth)
-    lying.v[1] = speed
-    lying.advance(1e-9, 1)
-    push = 30000 * depth - 600 * min(depth / 0.001, 1) * speed
-    assert lying.load == pytest.approx(max(push, 0), rel=1e-4)
-
-
 def test_a_fall_loses_energy():
     for p in BODIES:
-        falling = Moving(p)
+        falling = Chain(p)
         falling.lift(3.0)
         start = falling.energy()
         for _ in range(300):
@@ -218,7 +154,7 @@ def test_half_the_substep_stays_near():
     for p in 0.6 * np.random.default_rng(5).normal(size=(12, MORPHOLOGY_SIZE)):
         ends = []
         for part in (1, 2, 8):
-            body = Moving(p)
+            body = Chain(p)
             body.lift(0.1)
             body.advance(0.001 / part, 400 * part, np.full(RODS - 1, 0.05))
             ends.append(body.q)

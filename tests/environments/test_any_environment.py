@@ -17,12 +17,6 @@ from botschool.problems import Episodes, making
 from botschool.problems.spaces import Flattener, fitted, interface
 from running import TESTS, experiment, run_seeds, same, write_experiment
 
-
-@pytest.fixture(autouse=True)
-def own_environments(monkeypatch):
-    monkeypatch.syspath_prepend(TESTS)
-
-
 # observations
 
 

@@ -15,12 +15,7 @@ from botschool.evolution.coevolution import Coevolution
 from botschool.policies.hyperparameters import PolicyConfig
 from botschool.problems import Episodes
 from duels import ALGORITHMS, FACE, run, write
-from running import TESTS, contents, same
-
-
-@pytest.fixture(autouse=True)
-def own_environments(monkeypatch):
-    monkeypatch.syspath_prepend(TESTS)
+from running import contents, same
 
 
 def duel(options="", **policy):

@@ -14,12 +14,6 @@ from botschool.errors import BotschoolError
 from botschool.policies.hyperparameters import PolicyConfig
 from botschool.problems import Episodes
 from duels import FACE, run, write
-from running import TESTS
-
-
-@pytest.fixture(autouse=True)
-def own_environments(monkeypatch):
-    monkeypatch.syspath_prepend(TESTS)
 
 
 @pytest.fixture

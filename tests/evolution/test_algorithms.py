@@ -15,7 +15,8 @@ from botschool.evolution.algorithm import ALGORITHMS as DECLARED
 from botschool.evolution.algorithms.ars import ARS, ARSConfig
 from botschool.evolution.algorithms.openaies import OpenAIES
 from botschool.evolution.algorithms.sss import SSS
-from running import ALGORITHMS, experiment, run_seeds
+from running import ALGORITHMS, experiment, run_seeds, same
+from test_mapelites import SMALL as MAP
 
 SIZE = 7
 
@@ -184,38 +185,50 @@ def test_ars_needs_as_many_directions_as_count(tmp_path):
         experiment(tmp_path, algo="ARS", samplesize=3, ntop=4)
 
 
-@pytest.mark.parametrize("algo", [*ALGORITHMS, "ARS"])
-def test_state_goes_out_and_in(algo):
-    config = {
-        "SSS": SSSConfig(popsize=6),
-        "OpenAI-ES": OpenAIESConfig(samplesize=3),
-        "ARS": ARSConfig(samplesize=3),
-    }[algo]
-    make = {"SSS": SSS, "OpenAI-ES": OpenAIES, "ARS": ARS}[algo]
-    one, two = make(config, initial, 3), make(config, initial, 3)
-    for _ in range(3):
-        one.tell(fitness_of(one.ask()[0]))
-    two.restore({name: value.copy() for name, value in one.state().items()})
-    for _ in range(3):
-        assert np.array_equal(one.ask()[0], two.ask()[0])
-        one.tell(fitness_of(one.ask()[0]))
-        two.tell(fitness_of(two.ask()[0]))
+SOLVING = [
+    ("SSS", {"popsize": 20, "mutrate": 0.1, "maxmsteps": 3}),
+    ("OpenAI-ES", {"samplesize": 20, "stepsize": 0.05, "noiseStdDev": 0.1, "maxmsteps": 3}),
+    ("ARS", {"samplesize": 20, "stepsize": 0.1, "noiseStdDev": 0.1, "maxmsteps": 3}),
+    *[("CMA-ES", own | {"maxmsteps": 1}) for own in ({}, {"active": 0}, {"diagonal": 1})],
+    *[(algo, {"maxmsteps": 1}) for algo in ("xNES", "sNES")],
+]
 
 
-@pytest.mark.parametrize("seed", [1, 2])
-@pytest.mark.parametrize("algo", [*ALGORITHMS, "ARS"])
-def test_all_solve_cartpole(algo, seed, tmp_path):
+@pytest.mark.parametrize(("algo", "options"), SOLVING)
+def test_all_solve_cartpole(algo, options, tmp_path):
     """A trivial task; 500 is the best that CartPole-v1 gives."""
     policy = {"episodes": 3, "pepisodes": 20, "maxsteps": 500, "nhiddens": 5, "bias": 1}
-    options = {
-        "SSS": {"popsize": 20, "mutrate": 0.1},
-        "OpenAI-ES": {"samplesize": 20, "stepsize": 0.05, "noiseStdDev": 0.1},
-        "ARS": {"samplesize": 20, "stepsize": 0.1, "noiseStdDev": 0.1},
-    }[algo]
-    own = experiment(tmp_path, "CartPole-v1", algo, policy, maxmsteps=3, **options)
-    assert run_seeds(own, tmp_path, [seed])
-    words = (tmp_path / f"S{seed}.fit").read_text().split()
-    assert float(words[words.index("bestgfit") + 1]) == 500
+    own = experiment(tmp_path, "CartPole-v1", algo, policy, **options)
+    seeds = (1, 2) if options["maxmsteps"] == 3 else (1,)
+    assert run_seeds(own, tmp_path, seeds)
+    for seed in seeds:
+        words = (tmp_path / f"S{seed}.fit").read_text().split()
+        assert float(words[words.index("bestgfit") + 1]) == 500
+
+
+RUNS = [
+    ("ARS", {}),
+    *[("CMA-ES", own | {"popsize": 6}) for own in ({}, {"active": 0}, {"diagonal": 1})],
+    *[(algo, {"popsize": 6}) for algo in ("xNES", "sNES")],
+    ("GA", {"popsize": 6, "selsize": 3}),
+    ("(1+1)-ES", {}),
+    ("PGPE", {"samplesize": 3}),
+    ("MAP-Elites", MAP | {"maxmsteps": 0.02}),
+]
+"""Of the algorithms that test_determinism.py does not run."""
+
+
+@pytest.mark.parametrize(("algo", "options"), RUNS)
+def test_workers_and_stops_do_not_show(algo, options, tmp_path):
+    own = experiment(
+        tmp_path, algo=algo, policy={"normalize": int(algo != "MAP-Elites")}, **options
+    )
+    assert run_seeds(own, tmp_path / "whole", [1, 2])
+    assert run_seeds(own, tmp_path / "workers", [1, 2], workers=3)
+    for steps in (1, 1500, 1501, 3000, None):
+        assert run_seeds(own, tmp_path / "parts", [1, 2], steps=steps, resume=True)
+    assert same(tmp_path / "whole", tmp_path / "workers")
+    assert same(tmp_path / "whole", tmp_path / "parts")
 
 
 @pytest.mark.parametrize("algo", ALGORITHMS)
@@ -270,19 +283,20 @@ def made(name):
     return entry.make(entry.config(**own), initial, 3)
 
 
-def step(algorithm):
+def win(one, other, pairs, seed=None):
+    """Meetings in which the first of a pair wins the more, the larger its numbers are."""
+    return 1 / (1 + np.exp(-(one[pairs[0]] - other[pairs[1]]).sum(axis=1)))
+
+
+def step(algorithm, meet=win):
     if hasattr(algorithm, "advance"):
-        algorithm.advance(lambda one, other, pairs, seed=None: win(one[pairs[0]] - other[pairs[1]]))
+        algorithm.advance(meet)
     else:
         candidates, _ = algorithm.ask()
         told = [-(np.asarray(candidates) ** 2).sum(axis=1)]
         if getattr(algorithm, "behaves", False):
             told.append(np.asarray(candidates)[:, None, :2].repeat(2, axis=1))
         algorithm.tell(*told)
-
-
-def win(difference):
-    return 1 / (1 + np.exp(-difference.sum(axis=1)))
 
 
 def equal(one, other):
@@ -310,6 +324,32 @@ def test_what_changes_in_a_generation_is_in_the_checkpoint(name):
         step(two)
     one, two = (sorted(each.state().items()) for each in (one, two))
     assert equal(one, two)
+
+
+@pytest.mark.parametrize("name", [name for name in DECLARED if hasattr(made(name), "advance")])
+def test_a_generation_that_breaks_off_leaves_no_trace(name):
+    one, two = made(name), made(name)
+    for _ in range(6):
+        step(one)
+        step(two)
+    before, met = {key: value.copy() for key, value in one.state().items()}, 0
+    last = None
+
+    def meet(*meeting):
+        nonlocal met
+        if met == last:
+            raise InterruptedError
+        met += 1
+        return win(*meeting)
+
+    step(two, meet)
+    assert met > 0
+    for last in range(met):  # noqa: B007 (`meet` reads it)
+        met = 0
+        with pytest.raises(InterruptedError):
+            step(one, meet)
+        after = one.state()
+        assert all(np.array_equal(before[key], after[key], equal_nan=True) for key in before)
 
 
 @pytest.mark.parametrize("name", SAVED)

@@ -224,38 +224,6 @@ def test_a_generation_is_one_call_and_both_of_a_pair_meet_the_same(name):
     assert len(calls) == 4
 
 
-@pytest.mark.parametrize("name", VARIANTS)
-def test_a_generation_that_breaks_off_leaves_no_trace(name):
-    algorithm, _ = game(name)
-    for _ in range(5):
-        algorithm.advance(play)
-    before = {name: value.copy() for name, value in algorithm.state().items()}
-
-    def breaking(predators, prey, pairs):
-        raise InterruptedError
-
-    with pytest.raises(InterruptedError):
-        algorithm.advance(breaking)
-    after = algorithm.state()
-    assert all(np.array_equal(before[name], after[name]) for name in before)
-
-
-@pytest.mark.parametrize("name", VARIANTS)
-def test_a_state_that_is_restored_goes_on_alike(name):
-    one, two = game(name)[0], game(name)[0]
-    two.centres += 1
-    for _ in range(9):
-        one.advance(play)
-    two.restore({key: value.copy() for key, value in one.state().items()})
-    for _ in range(5):
-        one.advance(play)
-        two.advance(play)
-        assert one.summary() == two.summary()
-    one, two = one.state(), two.state()
-    assert one.keys() == two.keys()
-    assert all(np.array_equal(one[key], two[key], equal_nan=True) for key in one)
-
-
 @pytest.mark.parametrize("name", ["archivestar", "maxsolvestar"])
 def test_what_is_known_of_an_archive_must_fit_it(name):
     algorithm, _ = game(name)

@@ -171,37 +171,6 @@ def test_momentum_is_kept_with_the_individual():
         assert new <= 3
 
 
-def test_a_generation_that_breaks_off_leaves_no_trace():
-    algorithm = game()
-    algorithm.advance(play)
-    before = {name: value.copy() for name, value in algorithm.state().items()}
-    for calls in range(21):
-        done = 0
-
-        def breaking(predators, prey, pairs, calls=calls):
-            nonlocal done
-            if done == calls:
-                raise InterruptedError
-            done += 1
-            return play(predators, prey, pairs)
-
-        with pytest.raises(InterruptedError):
-            algorithm.advance(breaking)
-        after = algorithm.state()
-        assert all(np.array_equal(before[name], after[name]) for name in before)
-
-
-def test_a_state_that_is_restored_goes_on_alike():
-    one, two = game(), Coevo2(Coevo2Config(**SETTINGS), lambda index: initial(index + 1), 9)
-    one.advance(play)
-    two.restore({name: value.copy() for name, value in one.state().items()})
-    for _ in range(3):
-        one.advance(play)
-        two.advance(play)
-        assert one.summary() == two.summary()
-    assert all(np.array_equal(one.state()[name], two.state()[name]) for name in one.state())
-
-
 @given(
     st.integers(0, 2**32), st.integers(1, 9), st.integers(1, 5), st.integers(1, 9), st.booleans()
 )

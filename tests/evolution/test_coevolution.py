@@ -1,52 +1,69 @@
-"""Runs of coevo2: their files, and that workers, stops and kills do not show in them."""
+"""Runs of two sides, and of one population that meets itself: their files, and that workers, stops
+and kills do not show in them."""
 
 import json
 import random
+import re
 import shutil
 import signal
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import running
 from botschool import config, problems
+from botschool.analysis.tournament import Contest
+from botschool.evolution.algorithms.halloffame import SAVED
 from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.record import STAT
 from botschool.evolution.replicate import replicate
 from botschool.evolution.run import Options, evolve
-from botschool.policies.policy import Policy
 from botschool.problems import Episodes
 from running import contents, finish, run_seeds, same, start
 
-POPSIZE = 6
-MAXSTEPS = 300
-POLICY = {"nrobots": 2, "heterogeneous": 1, "maxsteps": MAXSTEPS, "nhiddens": 4, "bias": 1}
+POLICY = {"nrobots": 2, "heterogeneous": 1, "maxsteps": 250, "nhiddens": 4, "bias": 1}
 POLICY |= {"architecture": 3, "winit": 2, "wrange": 2}  # bold robots, who meet
-ALGORITHM = {"ngenerations": 5, "popsize": POPSIZE, "selsize": 2, "samplesize": 2, "saveeach": 2}
-ALGORITHM |= {"noiseStdDev": 0.3, "stepsize": 0.3}
+POPULATIONS = {"ngenerations": 5, "popsize": 6, "selsize": 2, "samplesize": 2, "saveeach": 2}
+POPULATIONS |= {"noiseStdDev": 0.3, "stepsize": 0.3}
+CENTRES = {"maxmsteps": 1000, "ngenerations": 9, "samplesize": 5, "ncompetitors": 3}
+CENTRES |= {"noiseStdDev": 0.3, "stepsize": 0.1, "wdecay": 1, "saveeach": 4}
+ALGORITHMS = {
+    "coevo2": POPULATIONS,
+    "coevo": POPULATIONS,
+    "archive": CENTRES | {"addtoarchiveevery": 2},
+    "archivestar": CENTRES | {"addtoarchiveevery": 2, "popsize": 2},
+    "maxsolvestar": CENTRES | {"nphases": 3, "archivelen": 5},
+}
 posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")
 
 
-def write(folder, environment="ErPredprey", policy=None, **algorithm):
+def write(folder, algo="coevo2", environment=None, policy=None, **options):
     """Writes FOLDER/own.ini, a very small experiment. Gives its path."""
+    policy = POLICY | ({"episodes": 2} if algo == "coevo" else {}) | (policy or {})
+    environment = environment or ("ErStaybehind" if algo == "coevo" else "ErPredprey")
+    lines = ["[EXP]", f"environment = {environment}", f"algo = {algo}", "[POLICY]"]
+    lines += [f"{key} = {value}" for key, value in policy.items()]
+    lines += ["[ALGO]", *(f"{k} = {v}" for k, v in (ALGORITHMS[algo] | options).items())]
     folder.mkdir(parents=True, exist_ok=True)
-    lines = ["[EXP]", f"environment = {environment}", "algo = coevo2", "[POLICY]"]
-    lines += [f"{key} = {value}" for key, value in (POLICY | (policy or {})).items()]
-    lines += ["[ALGO]", *(f"{key} = {value}" for key, value in (ALGORITHM | algorithm).items())]
     (folder / "own.ini").write_text("\n".join(lines) + "\n")
     return folder / "own.ini"
 
 
-def experiment(folder, **options):
+def experiment(folder, *arguments, **options):
     """The same, read."""
-    return config.load(write(folder, **options))
+    return config.load(write(folder, *arguments, **options))
 
 
 def run(own, folder, workers=1, resume=False, **limits):
     """A run with seed 3 in the folder; whether it was finished."""
     folder.mkdir(parents=True, exist_ok=True)
     return evolve(Coevolution(own, 3, workers), folder, resume=resume, **limits)
+
+
+def arguments(folder, *more):
+    return ("es", "-f", folder / "own.ini", "-s", 3, "-o", folder / "run", *more)
 
 
 def same_but_for_stops(whole, parts):
@@ -57,12 +74,19 @@ def same_but_for_stops(whole, parts):
     return same(whole, parts)
 
 
-@pytest.fixture(scope="module")
-def whole(tmp_path_factory):
-    """The folder of an undisturbed run."""
-    folder = tmp_path_factory.mktemp("whole")
-    assert run(experiment(folder.parent), folder)
-    return folder
+@pytest.fixture(scope="module", params=ALGORITHMS)
+def whole(request, tmp_path_factory):
+    """An undisturbed run: its algorithm, experiment, file and folder, the generations that it has
+    saved, and how many robots of a side meet."""
+    folder = tmp_path_factory.mktemp(request.param)
+    own = experiment(folder, request.param)
+    assert run(own, folder / "run")
+    last, every = own.algo.ngenerations, own.algo.saveeach
+    return SimpleNamespace(
+        algo=request.param, own=own, file=folder / "own.ini", folder=folder / "run",
+        saved=[g for g in range(last + 1) if g % every == 0 or g == last],
+        count=own.algo.popsize if "coevo" in request.param else SAVED,
+    )  # fmt: skip
 
 
 @pytest.fixture
@@ -73,89 +97,88 @@ def own(tmp_path):
 # files
 
 
-def test_files_have_the_names_and_shapes_of_the_format(whole, own):
+def test_files_have_the_names_and_shapes_of_the_format(whole):
     expected = {"S3.fit", "bestgS3.npy", "statS3.npy", "checkpointS3.npz", "tensorboardS3"}
-    for generation in (0, 2, 4, 5):
-        expected |= {f"S3G{generation}.npy", f"S3FitG{generation}.npy"}
-    assert {path.name for path in whole.iterdir()} == expected
-    size = Coevolution(own, 3).policy.nparameters
-    for generation in (0, 2, 4, 5):
-        population = np.load(whole / f"S3G{generation}.npy")
-        fitness = np.load(whole / f"S3FitG{generation}.npy")
-        assert (population.shape, population.dtype) == ((2 * POPSIZE, size), np.float64)
-        assert (fitness.shape, fitness.dtype) == ((2 * POPSIZE, POPSIZE), np.float64)
-        # a prey's fitness is 1 - the predator's, and the best are first
-        assert np.array_equal(fitness[POPSIZE:], 1 - fitness[:POPSIZE].T)
-        for rows in np.split(fitness, 2):
-            assert (np.diff(rows.mean(axis=1)) <= 1e-12).all()
-    fit = (whole / "S3.fit").read_text().split()
+    expected |= {f"S3{fit}G{g}.npy" for g in whole.saved for fit in ("", "Fit")}
+    assert {path.name for path in whole.folder.iterdir()} == expected
+    size, count = Coevolution(whole.own, 3).policy.nparameters, whole.count
+    rows = count if whole.algo == "coevo" else 2 * count
+    for generation in whole.saved:
+        networks = np.load(whole.folder / f"S3G{generation}.npy")
+        fitness = np.load(whole.folder / f"S3FitG{generation}.npy")
+        assert (networks.shape, networks.dtype) == ((rows, size), np.float64)
+        assert (fitness.shape, fitness.dtype) == ((rows, count), np.float64)
+        if whole.algo != "coevo":  # a prey's fitness is 1 - the predator's
+            assert np.array_equal(fitness[count:], 1 - fitness[:count].T)
+        if whole.algo == "coevo2":  # and the best are first
+            for side in np.split(fitness, 2):
+                assert (np.diff(side.mean(axis=1)) <= 1e-12).all()
+    assert len(np.load(whole.folder / "statS3.npy")) == 6 * whole.own.algo.ngenerations
+    fit = (whole.folder / "S3.fit").read_text().split()
     assert fit[0::2] == ["seed", "gen", "steps", "bestfit", "bestgfit"]
-    assert fit[1:4:2] == ["3", "5"]
+    assert fit[1:4:2] == ["3", str(whole.own.algo.ngenerations)]
 
 
-@pytest.mark.parametrize("generation", [0, 2, 5])
-def test_entries_of_the_fitness_matrix_can_be_played_again(generation, whole, own):
-    problem = problems.make("ErPredprey")
-    policy = Policy(problem.name, problem.interface, own.policy)
-    population = np.load(whole / f"S3G{generation}.npy")
-    fitness = np.load(whole / f"S3FitG{generation}.npy")
-    assert len(set(fitness.ravel().tolist())) > 5
-    for i in range(POPSIZE):
-        for k in range(POPSIZE):
-            pair = np.array([[i], [POPSIZE + k]], dtype=np.int32)
-            episodes = Episodes(pair, np.array([3], np.uint64), np.array([0], np.uint32))
-            outcome = problem.evaluate(policy, population, None, episodes, MAXSTEPS)
-            assert outcome.fitness[0] == fitness[i, k]
-            assert 1 - outcome.fitness[0] == fitness[POPSIZE + k, i]
+def test_entries_of_the_fitness_matrix_can_be_played_again(whole):
+    """Those of coevo under the conditions of their generation: its seed, and two episodes for each
+    column."""
+    problem = problems.of(whole.own)
+    policy, different = problem.policy(whole.own.policy), set()
+    for generation in whole.saved:
+        networks = np.load(whole.folder / f"S3G{generation}.npy")
+        fitness = np.load(whole.folder / f"S3FitG{generation}.npy")
+        different |= set(fitness.ravel().tolist())
+        numbers = np.random.Generator(np.random.Philox(key=[3, generation]))
+        drawn = numbers.integers(2**62, size=21)[0]
+        for i in range(0, whole.count, 1 + whole.count // 9):
+            for k in range(whole.count):
+                if whole.algo == "coevo":
+                    meeting = [[i, i], [k, k]], [drawn, drawn], [2 * k, 2 * k + 1]
+                else:
+                    meeting = [[i], [whole.count + k]], [3], [0]
+                types = (np.int32, np.uint64, np.uint32)
+                episodes = Episodes(*map(np.array, meeting, types))
+                maxsteps = whole.own.policy.maxsteps
+                outcome = problem.evaluate(policy, networks, None, episodes, maxsteps)
+                assert outcome.fitness.mean() == fitness[i, k]
+    assert len(different) > 5
 
 
-def test_the_best_of_both_are_one_genotype(whole, own):
-    """... that `es -p -g` shows."""
-    population, fitness = np.load(whole / "S3G5.npy"), np.load(whole / "S3FitG5.npy")
-    best = np.load(whole / "bestgS3.npy")
-    assert np.array_equal(best, np.concatenate([population[0], population[POPSIZE]]))
-    problem = problems.make("ErPredprey")
-    policy = Policy(problem.name, problem.interface, own.policy)
-    outcome = problem.evaluate(policy, best[None], None, Episodes.of([3], 1), MAXSTEPS)
-    assert outcome.fitness[0] == fitness[0, 0]
-
-
-def test_first_populations_are_the_initial_networks(whole, own):
-    policy = Coevolution(own, 3).policy
-    pairs = np.array([policy.initial(3, i) for i in range(POPSIZE)])
-    expected = np.concatenate(np.split(pairs, 2, axis=1))
-    saved = np.load(whole / "S3G0.npy")
-    for part in (slice(0, POPSIZE), slice(POPSIZE, None)):
-        assert sorted(map(tuple, saved[part])) == sorted(map(tuple, expected[part]))
-
-
-def test_the_stat_file_says_what_happened(tmp_path, own):
-    """Checked against the populations of every generation."""
-    own.algo.saveeach = 1
-    steps = []
-    coevolution = Coevolution(own, 3)
+def test_the_stat_file_and_the_best_are_those_of_every_generation(whole):
+    coevolution = Coevolution(whole.own, 3)
+    steps, calls, rows, best = 0, 0, [], -np.inf
     evaluate = coevolution.problem.evaluate
 
-    def spying(*arguments):
-        outcome = evaluate(*arguments)
-        steps.append(int(outcome.steps.sum()))
+    def counting(*given):
+        nonlocal steps, calls
+        outcome = evaluate(*given)
+        steps, calls = steps + int(outcome.steps.sum()), calls + 1
         return outcome
 
-    coevolution.problem.evaluate = spying
-    assert evolve(coevolution, tmp_path)
-    assert len(steps) == 1 + 5 * 21
-    stat = np.load(tmp_path / "statS3.npy").reshape(-1, 6)
-    assert len(stat) == 5
-    best = -np.inf
-    for g, row in enumerate(stat, 1):
-        fitness = np.load(tmp_path / f"S3FitG{g}.npy")[:POPSIZE]
-        best = max(best, fitness.mean(axis=1).max())
-        assert row[0] == sum(steps[: 1 + 21 * g])
-        average = fitness.mean(axis=1).max(), fitness.mean()
-        size = np.abs(np.load(tmp_path / f"S3G{g}.npy")).mean()
-        assert row[1:] == pytest.approx([best, best, *average, size])
-    last = coevolution.record.last
-    assert last["predators"] + last["prey"] == pytest.approx(1)
+    coevolution.problem.evaluate = counting
+    while coevolution.record.generation < whole.own.algo.ngenerations:
+        coevolution.advance()
+        if coevolution.record.generation == len(rows):
+            continue  # everyone has met everyone
+        algorithm = coevolution.algorithm
+        if "coevo" in whole.algo:
+            means, networks = algorithm.fitness.mean(axis=1), algorithm.parameters
+            values = means.max(), means.mean()
+        else:
+            values, networks = algorithm.fitness[0], algorithm.centres
+        best = max(best, values[0])
+        rows.append([steps, best, best, *values, np.abs(networks).mean()])
+    assert np.load(whole.folder / "statS3.npy").reshape(-1, 6) == pytest.approx(np.array(rows))
+    if whole.algo == "coevo2":
+        assert calls == 1 + 5 * 21
+        last = coevolution.record.last
+        assert last["predators"] + last["prey"] == pytest.approx(1)
+        expected = np.concatenate(algorithm.parameters[:, 0])
+    elif whole.algo == "coevo":
+        expected, _ = algorithm.best()
+    else:
+        expected = np.concatenate(algorithm.champions)
+    assert np.array_equal(np.load(whole.folder / "bestgS3.npy"), expected)
 
 
 def test_fitness_is_averaged_over_the_episodes(tmp_path):
@@ -163,16 +186,16 @@ def test_fitness_is_averaged_over_the_episodes(tmp_path):
     noise = {"episodes": 3, "action_noise": 1, "action_noise_range": 0.5}
     own = experiment(tmp_path, policy=noise, ngenerations=1)
     assert run(own, tmp_path / "run")
-    problem = problems.make("ErPredprey")
-    policy = Policy(problem.name, problem.interface, own.policy)
+    problem = problems.of(own)
     population = np.load(tmp_path / "run" / "S3G1.npy")
     fitness = np.load(tmp_path / "run" / "S3FitG1.npy")
     means = []
-    for i in range(POPSIZE):
-        pairs = np.array([[i] * 3, [POPSIZE] * 3], dtype=np.int32)
+    for i in range(6):
+        pairs = np.array([[i] * 3, [6] * 3], dtype=np.int32)
         episodes = Episodes(pairs, np.full(3, 3, np.uint64), np.arange(3, dtype=np.uint32))
-        means.append(problem.evaluate(policy, population, None, episodes, MAXSTEPS).fitness.mean())
-    assert fitness[:POPSIZE, 0] == pytest.approx(means)
+        outcome = problem.evaluate(problem.policy(own.policy), population, None, episodes, 250)
+        means.append(outcome.fitness.mean())
+    assert fitness[:6, 0] == pytest.approx(means)
 
 
 def test_event_files_hold_local_progress_and_both_sides(tmp_path, own):
@@ -190,24 +213,30 @@ def test_event_files_hold_local_progress_and_both_sides(tmp_path, own):
     assert [np.float32(point.value) for point in points] == stat[:, 4].tolist()
 
 
-def test_plotstat_draws_it(whole, command, tmp_path):
-    picture = tmp_path / "curve.png"
-    assert command("plotstat", whole, "-o", picture)[0] == 0
-    assert picture.stat().st_size > 1000
-
-
-def test_a_line_per_generation(command, tmp_path, own):
-    code, out, errors = command(*arguments(tmp_path))
+@pytest.mark.parametrize("algo", ALGORITHMS)
+def test_a_line_per_generation(algo, command, tmp_path):
+    write(tmp_path, algo)
+    code, out, errors = command(*arguments(tmp_path, "--generations", 3))
     assert (code, errors) == (0, "")
-    lines = out.splitlines()
-    assert len(lines) == 6
-    for g, line in enumerate(lines[:-1]):
-        who = "prey" if g % 2 else "predators"
-        assert line.startswith(f"seed 3  generation {g + 1} ({20 * (g + 1)}.0%)  {who} evolved  ")
-        for word in ("steps", "local progress", "predators 0.", "prey "):
-            assert word in line
-        assert ("time left 0:00:" in line) == (g > 0)  # both sides have had a turn
-    assert "best of both" in lines[-1] and "bestgS3.npy" in lines[-1]
+    *lines, result = out.splitlines()
+    assert len(lines) == 3
+    sides = ("population",) if algo == "coevo" else ("predators", "prey")
+    for g, line in enumerate(lines):
+        who = sides[g % len(sides)]
+        start = rf"seed 3  generation {g + 1} \([0-9.]+%\)  {who} evolved  steps [0-9]+  "
+        assert re.match(start, line)
+    if algo == "coevo":
+        assert "population 0." in result and "(follower, then leader)" in result
+        return
+    assert "best of both" in result and "bestgS3.npy" in result
+    if algo == "coevo2":
+        assert [f"({20 * (g + 1)}.0%)" in line for g, line in enumerate(lines)] == [True] * 3
+        assert all("local progress" in line and "predators 0." in line for line in lines)
+        # both sides have had a turn
+        assert ["time left 0:00:" in line for line in lines] == [False, True, True]
+    else:
+        assert "predators 0" in lines[0]
+        assert ["prey -  " in line for line in lines] == [True, False, False]
 
 
 def test_during_a_generation_the_bar_goes_on(tmp_path, own):
@@ -220,14 +249,10 @@ def test_during_a_generation_the_bar_goes_on(tmp_path, own):
 # workers, stops and kills
 
 
-def arguments(folder, *more):
-    return ("es", "-f", folder / "own.ini", "-s", 3, "-o", folder / "run", *more)
-
-
 @pytest.mark.parametrize("workers", [2, 5])
-def test_workers_do_not_show(workers, whole, own, tmp_path):
-    assert run(own, tmp_path / "run", workers)
-    assert same(whole, tmp_path / "run")
+def test_workers_do_not_show(workers, whole, tmp_path):
+    assert run(whole.own, tmp_path / "run", workers)
+    assert same(whole.folder, tmp_path / "run")
 
 
 def in_bands(predators, prey):
@@ -250,30 +275,40 @@ def test_consecutive_episodes_share_networks(own):
     for _ in range(3):
         coevolution.advance()
     first, predators_evolve, prey_evolve = asked[0], asked[1:22], asked[22:]
-    everybody = range(POPSIZE)
-    assert first == in_bands(everybody, range(POPSIZE, 2 * POPSIZE))
+    assert first == in_bands(range(6), range(6, 12))
     for pairs in predators_evolve[:20]:
         assert pairs == in_bands(range(8), [8, 9])
     for pairs in prey_evolve[:20]:
         assert pairs == in_bands([0, 1], range(2, 10))
-    assert predators_evolve[20] == in_bands([0, 1], range(2, 2 + POPSIZE))
-    assert prey_evolve[20] == in_bands(everybody, [POPSIZE, POPSIZE + 1])
+    assert predators_evolve[20] == in_bands([0, 1], range(2, 8))
+    assert prey_evolve[20] == in_bands(range(6), [6, 7])
 
 
-def test_early_ends_do_not_show(whole, own, tmp_path):
+def test_early_ends_do_not_show(whole, tmp_path):
     folder = tmp_path / "run"
-    for limits in ({"generations": 1}, {"steps": 1}, {"generations": 1}, {"generations": 4}):
-        assert run(own, folder, resume=True, **limits)
-    assert (folder / "S3G1.npy").exists()
-    assert len(np.load(folder / "statS3.npy")) == 4 * 6
-    assert run(own, folder, resume=True)
-    assert same_but_for_stops(whole, folder)
+    for limits in ({"generations": 1}, {"steps": 1}, {"generations": 1}, {"generations": 3}):
+        assert run(whole.own, folder, resume=True, **limits)
+    assert (folder / "S3G1.npy").exists() and (folder / "S3G3.npy").exists()
+    assert len(np.load(folder / "statS3.npy")) == 3 * 6
+    assert run(whole.own, folder, resume=True)
+    assert same_but_for_stops(whole.folder, folder)
 
 
-def test_steps_end_a_run(own, tmp_path):
-    assert run(own, tmp_path / "run", steps=1)  # when everyone has met everyone
+def test_the_first_populations_are_saved_when_everyone_has_met_everyone(own, tmp_path):
+    assert run(own, tmp_path / "run", steps=1)
     assert len(np.load(tmp_path / "run" / "statS3.npy")) == 0
-    assert (tmp_path / "run" / "S3G0.npy").exists()
+    policy = Coevolution(own, 3).policy
+    pairs = np.array([policy.initial(3, i) for i in range(6)])
+    saved = np.split(np.load(tmp_path / "run" / "S3G0.npy"), 2)
+    for side, expected in zip(saved, np.split(pairs, 2, axis=1), strict=True):
+        assert sorted(map(tuple, side)) == sorted(map(tuple, expected))
+
+
+def test_steps_end_a_run(tmp_path):
+    own = experiment(tmp_path, "archive", maxmsteps=0.03, ngenerations=0)
+    assert run(own, tmp_path / "run")
+    steps = np.load(tmp_path / "run" / "statS3.npy").reshape(-1, 6)[:, 0]
+    assert len(steps) > 2 and steps[-2] < 30_000 <= steps[-1]
 
 
 def test_generations_end_runs_of_other_algorithms(tmp_path):
@@ -285,19 +320,28 @@ def test_generations_end_runs_of_other_algorithms(tmp_path):
     assert same(tmp_path / "whole", tmp_path / "run")
 
 
-def test_going_on_with_a_longer_run_does_not_show(whole, tmp_path):
+def test_going_on_with_a_longer_run_does_not_show(own, tmp_path):
+    assert run(own, tmp_path / "whole")
     for generations, saveeach in ((3, 1), (5, 2)):
         own = experiment(tmp_path, ngenerations=generations, saveeach=saveeach)
         assert run(own, tmp_path / "run", resume=True)
-    parts, expected = contents(tmp_path / "run"), contents(whole)
+    parts, expected = contents(tmp_path / "run"), contents(tmp_path / "whole")
     assert {name for name in parts if parts[name] != expected.get(name)} == {
         *("S3G1.npy", "S3G3.npy", "S3FitG1.npy", "S3FitG3.npy")
     }
 
 
-def test_a_request_to_stop_at_any_moment_does_not_show(whole, own, tmp_path):
+def test_only_runs_without_phases_may_be_lengthened(refused, tmp_path):
+    for algo in ("archive", "maxsolvestar"):
+        assert run(experiment(tmp_path / algo, algo), tmp_path / algo / "run", generations=2)
+        write(tmp_path / algo, algo, maxmsteps=2000)
+    assert run(config.load(tmp_path / "archive/own.ini"), tmp_path / "archive/run", resume=True)
+    refused(*arguments(tmp_path / "maxsolvestar", "--resume"), says=["maxmsteps", "is now 2000"])
+
+
+def test_a_request_to_stop_at_any_moment_does_not_show(whole, tmp_path):
     """In the first meeting, in sub-generations, between generations; heard before the next call."""
-    for moment in (0, 1, 9, 22, 23, 40):
+    for moment in (0, 1, 9, 22, 23, 40) if "coevo" in whole.algo else (0, 1, 6):
         asked = 0
 
         def stopping(moment=moment):
@@ -307,10 +351,43 @@ def test_a_request_to_stop_at_any_moment_does_not_show(whole, own, tmp_path):
 
         folder = tmp_path / str(moment)
         folder.mkdir()
-        assert not evolve(Coevolution(own, 3, stopping=stopping), folder)
+        assert not evolve(Coevolution(whole.own, 3, stopping=stopping), folder)
         assert asked == moment + 1
-        assert evolve(Coevolution(own, 3), folder, resume=True)
-        assert same_but_for_stops(whole, folder)
+        assert evolve(Coevolution(whole.own, 3), folder, resume=True)
+        assert same_but_for_stops(whole.folder, folder)
+
+
+@pytest.mark.parametrize("algo", ["archive", "archivestar", "maxsolvestar"])
+def test_saving_does_not_show(algo, tmp_path):
+    """Individuals of archives meet for the files alone."""
+    for saveeach in (1, 4):
+        own = experiment(tmp_path, algo, saveeach=saveeach)
+        assert run(own, tmp_path / str(saveeach))
+    for name in ("statS3.npy", "bestgS3.npy", "S3G8.npy", "S3FitG8.npy"):
+        assert (tmp_path / "1" / name).read_bytes() == (tmp_path / "4" / name).read_bytes()
+
+
+def test_large_archives_are_saved_less_often(tmp_path):
+    coevolution = Coevolution(experiment(tmp_path, "archive"), 3)
+    coevolution.advance()
+    assert coevolution.due(61) and not coevolution.due(59)
+    coevolution.saving = 10.0
+    assert coevolution.due(201) and not coevolution.due(199)
+    while coevolution.record.generation < 4:
+        coevolution.advance()
+    assert coevolution.due(0)
+
+
+def test_phases_are_those_of_the_experiment(tmp_path):
+    """... wherever the user has stopped it in between."""
+    coevolution, phases = Coevolution(experiment(tmp_path, "maxsolvestar"), 3), []
+    (tmp_path / "run").mkdir()
+
+    def report(run):
+        phases.append(run.algorithm.phase)
+
+    assert evolve(coevolution, tmp_path / "run", report=report, generations=5)
+    assert phases[1:] == [0, 0, 0, 1, 1]
 
 
 @posix
@@ -351,23 +428,93 @@ def test_ctrl_c_saves_the_last_whole_generation(tmp_path):
     assert same_but_for_stops(tmp_path / "undisturbed", tmp_path / "run")
 
 
+# what comes after
+
+
+def test_populations_take_part_in_tournaments(whole, command, tmp_path):
+    picture = tmp_path / "tournament.png"
+    code, out, errors = command("tournament", whole.folder, "-f", whole.file, "-o", picture)
+    assert (code, errors) == (0, "")
+    assert "historical progress" in out and "global progress" in out
+    assert picture.stat().st_size > 1000
+    if whole.algo != "coevo":
+        generation = whole.saved[-2]
+        networks = np.load(whole.folder / f"S3G{generation}.npy")
+        expected = Contest(whole.own, 3).meet(*np.split(networks, 2)).mean()
+        (row,) = (r.split() for r in out.splitlines() if r.split()[:1] == [str(generation)])
+        assert row[2 + whole.saved.index(generation) - 1] == f"{expected:.2f}"
+
+
+def test_populations_are_shown_and_measured(whole, command, tmp_path):
+    g, step, page = whole.saved[-2], whole.own.algo.saveeach, tmp_path / "chase.html"
+    common = ("es", "-f", whole.file, "-s", 3, "-o", whole.folder, "-p", "-g")
+    files = "-".join(str(whole.folder / f"S3G{generation}.npy") for generation in (0, g))
+    for text in (f"p-{g}-3", f"m-{g}-{step}", f"M-{g}-{step}", f"c-{files}"):
+        code, out, errors = command(*common, text)
+        assert (code, errors) == (0, "") and "0." in out
+        if text[0] == "p" and whole.algo == "coevo":
+            assert "one population: its predators are its individuals as follower, its prey" in out
+            means = [line for line in out.splitlines() if line.startswith("mean fitness of the ")]
+            assert len(means) == 2 and means[0].split(":")[1] == means[1].split(":")[1]
+    assert command(*common, f"P-{g}-2", "--replay", page, "--episodes", 1)[0] == 0
+    assert page.stat().st_size > 10_000
+    assert command(*common, whole.folder / "bestgS3.npy", "--render", "none")[0] == 0
+
+
+def test_runs_of_two_algorithms_meet(command, tmp_path):
+    for algo in ("archive", "maxsolvestar"):
+        assert run(experiment(tmp_path / algo, algo), tmp_path / algo, generations=2)
+    one, two = (tmp_path / algo / "S3G2.npy" for algo in ("archive", "maxsolvestar"))
+    file = tmp_path / "archive" / "own.ini"
+    code, _, errors = command("es", "-f", file, "-p", "-g", f"c-{one}-{two}", "-o", tmp_path)
+    assert (code, errors) == (0, "")
+
+
+def test_plotstat_draws_it(whole, command, tmp_path):
+    picture = tmp_path / "curve.png"
+    assert command("plotstat", whole.folder, "-o", picture)[0] == 0
+    assert picture.stat().st_size > 1000
+
+
 # faults
+
+ONE = {"nrobots": 1, "heterogeneous": 0}
 
 
 @pytest.mark.parametrize(
-    ("environment", "policy", "says"),
+    ("algo", "changes", "says"),
     [
-        ("CartPole-v1", {"nrobots": 1, "heterogeneous": 0}, ["two robots", "ErPredprey"]),
-        ("tiny_envs:Tiny-v0", {"nrobots": 1}, ["of one robot", "PettingZoo", "algo = OpenAI-ES"]),
-        ("ErPredprey", {"nrobots": 1}, ["set nrobots = 2"]),
-        ("ErPredprey", {"heterogeneous": 0}, ["set heterogeneous = 1"]),
-        ("ErPredprey", {"normalize": 1}, ["set normalize = 0"]),
+        ("coevo2", {"environment": "CartPole-v1", "policy": ONE}, ["two robots", "ErPredprey"]),
+        ("coevo2", {"environment": "tiny_envs:Tiny-v0", "policy": ONE},
+         ["of one robot", "PettingZoo", "algo = OpenAI-ES"]),
+        ("coevo2", {"policy": {"nrobots": 1}}, ["set nrobots = 2"]),
+        ("coevo2", {"policy": {"heterogeneous": 0}}, ["set heterogeneous = 1"]),
+        ("coevo2", {"policy": {"normalize": 1}}, ["set normalize = 0"]),
+        ("coevo", {"popsize": 4, "selsize": 5}, ["selsize = 5 is more than popsize = 4"]),
+        ("archive", {"environment": "CartPole-v1", "policy": ONE},
+         ["archive needs two robots", "ErPredprey"]),
+        ("archive", {"policy": {"heterogeneous": 0}}, ["archive evolves", "set heterogeneous = 1"]),
+        ("archivestar", {"policy": {"normalize": 1}},
+         ["archivestar does not", "set normalize = 0"]),
+        ("archive", {"popsize": 2}, ["popsize = 2 is out of range", "1 (archivestar has more"]),
+        ("maxsolvestar", {"popsize": 0}, ["popsize = 0 is out of range"]),
+        ("archivestar", {"popsize": 0}, ["popsize = 0 is out of range", "from 1 to"]),
+        ("archive", {"checkoverfiteveryn": 5}, ["checkoverfiteveryn = 5", "0 (never"]),
+        ("archive", {"nphases": 5}, ["nphases is a hyperparameter of maxsolvestar, but"]),
+        ("archivestar", {"addtoarchive": 5}, ["did you mean addtoarchiveevery?"]),
+        ("maxsolvestar", {"archivelen": 0}, ["archivelen = 0 is out of range"]),
     ],
-)
-def test_problems_that_are_refused(environment, policy, says, refused, tmp_path):
-    write(tmp_path, environment, policy)
+)  # fmt: skip
+def test_experiments_that_are_refused(algo, changes, says, refused, tmp_path):
+    write(tmp_path, algo, **changes)
     refused(*arguments(tmp_path), says=says)
     assert not (tmp_path / "run").exists()
+
+
+def test_names_of_algorithms_are_suggested(refused, tmp_path):
+    path = write(tmp_path, "archive")
+    path.write_text(path.read_text().replace("algo = archive", "algo = archivstar"))
+    refused(*arguments(tmp_path), says="did you mean archivestar?")
 
 
 def test_populations_are_not_overwritten(refused, command, own, tmp_path):
@@ -388,28 +535,33 @@ def test_populations_are_not_overwritten(refused, command, own, tmp_path):
     assert contents(tmp_path / "run") == before
 
 
-def test_damaged_checkpoints(refused, own, tmp_path):
-    assert run(own, tmp_path / "run", generations=1)
+def test_damaged_checkpoints(whole, refused, tmp_path):
+    """Without any of their arrays; files cut short: test_faults_files.py."""
+    write(tmp_path, whole.algo)
+    shutil.copytree(whole.folder, tmp_path / "run")
     path = tmp_path / "run" / "checkpointS3.npz"
-    whole, arrays = path.read_bytes(), dict(np.load(path))
-    for length in (0, 10, len(whole) // 2, len(whole) - 1):
-        path.write_bytes(whole[:length])
-        refused(*arguments(tmp_path, "--resume"), says=["checkpointS3.npz", "--force"])
-    for name in ("algorithm.fitness", "algorithm.m", "algorithm.generation", "record.stat"):
+    arrays = dict(np.load(path))
+    needed = [name for name in arrays if name.startswith("algorithm.")]
+    assert len(needed) >= 5
+    for name in (*needed, "record.stat"):
         np.savez(path, **{key: value for key, value in arrays.items() if key != name})
         refused(*arguments(tmp_path, "--resume"), says=["checkpointS3.npz", "--force"])
-    np.savez(path, **arrays | {"algorithm.v": arrays["algorithm.v"][:, :-1]})
-    refused(*arguments(tmp_path, "--resume"), says=["does not fit", "--force"])
-    path.write_bytes(whole)
-    write(tmp_path, popsize=POPSIZE + 1)
-    refused(*arguments(tmp_path, "--resume"), says=[f"popsize is now {POPSIZE + 1}"])
-    write(tmp_path, evolving="random")
-    refused(*arguments(tmp_path, "--resume"), says=["evolving = best", "is now random"])
+    for name in ("algorithm.v", "algorithm.archive_prey"):
+        if name in arrays:
+            np.savez(path, **arrays | {name: arrays[name][..., :-1]})
+            refused(*arguments(tmp_path, "--resume"), says=["does not fit", "--force"])
+    np.savez(path, **arrays)
+    key, value = {"coevo": ("selsize", 3), "coevo2": ("evolving", "random")}.get(
+        whole.algo, ("ncompetitors", 4)
+    )
+    write(tmp_path, whole.algo, **{key: value})
+    refused(*arguments(tmp_path, "--resume"), says=[key, f"is now {value}"])
 
 
-def test_checkpoints_of_networks_that_were_computed_otherwise(refused, tmp_path):
+@pytest.mark.parametrize("algo", ["coevo2", "coevo"])
+def test_checkpoints_of_networks_that_were_computed_otherwise(algo, refused, tmp_path):
     """As of versions in which an LSTM's outputs were linear, whatever out_type said."""
-    assert run(experiment(tmp_path, policy={"out_type": 3}), tmp_path / "run", generations=1)
+    assert run(experiment(tmp_path, algo, policy={"out_type": 3}), tmp_path / "run", generations=1)
     path = tmp_path / "run" / "checkpointS3.npz"
     whole = dict(np.load(path))
     header = json.loads(str(whole["botschool"]))
@@ -421,6 +573,6 @@ def test_checkpoints_of_networks_that_were_computed_otherwise(refused, tmp_path)
         ({"algorithm.fitness": fitness}, 3),
     ):
         np.savez(path, **whole | changed)
-        write(tmp_path, policy={"out_type": out_type})
+        write(tmp_path, algo, policy={"out_type": out_type})
         says = ["checkpointS3.npz", "evaluates robots differently", "--force"]
         refused(*arguments(tmp_path, "--resume"), says=says)

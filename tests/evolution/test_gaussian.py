@@ -14,7 +14,7 @@ from botschool.errors import BotschoolError
 from botschool.evolution.algorithm import ALGORITHMS
 from botschool.evolution.algorithms.xnes import exponential
 from plain_algorithms import PlainCMAES, PlainSNES, PlainXNES
-from running import experiment, run_seeds, same, write_experiment
+from running import run_seeds, write_experiment
 
 SIZE = 6
 VARIANTS = {
@@ -182,27 +182,6 @@ def test_sigma_stays_within_its_limits(name):
         assert np.max(one.sigma) <= 1e6
 
 
-# whole runs
-
-POLICY = {"normalize": 1, "episodes": 2, "pepisodes": 3}
-
-
-def small(folder, name, **options):
-    algo, own = VARIANTS[name]
-    return experiment(folder, "CartPole-v1", algo, POLICY, popsize=6, **own, **options)
-
-
-@each
-def test_workers_and_stops_do_not_show(name, tmp_path):
-    own = small(tmp_path, name)
-    assert run_seeds(own, tmp_path / "whole", [1, 2])
-    assert run_seeds(own, tmp_path / "workers", [1, 2], workers=3)
-    for steps in (1, 1500, 1501, 3000, None):
-        assert run_seeds(own, tmp_path / "parts", [1, 2], steps=steps, resume=True)
-    assert same(tmp_path / "whole", tmp_path / "workers")
-    assert same(tmp_path / "whole", tmp_path / "parts")
-
-
 BITS = """
 import hashlib
 from test_gaussian import VARIANTS, bent, made
@@ -239,16 +218,6 @@ def test_instruction_sets_and_blas_do_not_show():
         printed.append(done.stdout)
     assert len(printed[0].splitlines()) == len(VARIANTS)
     assert printed[0] == printed[1] == printed[2]
-
-
-@each
-def test_all_solve_cartpole(name, tmp_path):
-    algo, own = VARIANTS[name]
-    policy = {"episodes": 3, "pepisodes": 20, "maxsteps": 500, "nhiddens": 5, "bias": 1}
-    made = experiment(tmp_path, "CartPole-v1", algo, policy, maxmsteps=1, **own)
-    assert run_seeds(made, tmp_path, [1])
-    words = (tmp_path / "S1.fit").read_text().split()
-    assert float(words[words.index("bestgfit") + 1]) == 500
 
 
 # bad input

@@ -14,7 +14,7 @@ from botschool.errors import BotschoolError
 from botschool.evolution.algorithms.mapelites import MapElites, MapElitesConfig
 from botschool.evolution.evaluate import Evaluator
 from botschool.evolution.run import Run
-from running import experiment, run_seeds, same
+from running import experiment, run_seeds
 
 SIZE = 5
 SMALL = {"batch": 20, "behaviour": "mean 2 (lean), spread 0", "lowest": "-0.2, 0",
@@ -94,16 +94,6 @@ def test_behaviour_is_mean_and_spread_of_what_the_robot_observes(environment, tm
             seen = np.asarray(seen, dtype=np.float64)
             episodes.append([seen.mean(axis=0), seen.std(axis=0)])
         np.testing.assert_allclose(told.behaviour[i], np.mean(episodes, axis=0), atol=1e-6)
-
-
-def test_workers_and_stops_do_not_show(tmp_path):
-    own = experiment(tmp_path, "CartPole-v1", "MAP-Elites", maxmsteps=0.02, **SMALL)
-    assert run_seeds(own, tmp_path / "whole")
-    assert run_seeds(own, tmp_path / "three", workers=3)
-    assert same(tmp_path / "whole", tmp_path / "three")
-    for steps in (3000, 9000, None):
-        assert run_seeds(own, tmp_path / "parts", steps=steps, resume=True)
-    assert same(tmp_path / "whole", tmp_path / "parts")
 
 
 def test_the_map_fills_and_its_robots_get_better(tmp_path):

@@ -14,7 +14,7 @@ from botschool.evolution.algorithm import ALGORITHMS
 from botschool.evolution.algorithms.ga import GA, GAConfig
 from botschool.evolution.algorithms.oneplusone import OnePlusOne, OnePlusOneConfig
 from botschool.evolution.algorithms.pgpe import PGPE, PGPEConfig
-from running import experiment, run_seeds, same
+from running import experiment
 
 SIZE = 7
 NEW = ("GA", "(1+1)-ES", "PGPE")
@@ -137,18 +137,6 @@ def test_it_climbs(algo):
         fitness = fitness_of(candidates)
         made.tell(fitness)
     assert fitness.max() > start / 10
-
-
-@pytest.mark.parametrize("algo", NEW)
-def test_workers_and_stops_do_not_show(algo, tmp_path):
-    sizes = {"GA": {"popsize": 6, "selsize": 3}, "PGPE": {"samplesize": 3}}.get(algo, {})
-    own = experiment(tmp_path, "CartPole-v1", algo, {"normalize": 1}, **sizes)
-    assert run_seeds(own, tmp_path / "whole")
-    assert run_seeds(own, tmp_path / "three", workers=3)
-    assert same(tmp_path / "whole", tmp_path / "three")
-    for steps in (1000, 2500, None):
-        assert run_seeds(own, tmp_path / "parts", steps=steps, resume=True)
-    assert same(tmp_path / "whole", tmp_path / "parts")
 
 
 def test_more_parents_than_individuals_are_refused(tmp_path):

@@ -13,14 +13,13 @@ from botschool.config import load
 from botschool.policies.hyperparameters import PolicyConfig
 from botschool.problems import Episodes
 from botschool.problems.base import say_unrepeatable
-from running import TESTS, call, experiment, run_seeds, same, write_experiment
+from running import call, experiment, run_seeds, same, write_experiment
 
 NOTE = "does not repeat"
 
 
 @pytest.fixture(autouse=True)
-def own_environments(monkeypatch):
-    monkeypatch.syspath_prepend(TESTS)
+def nothing_was_said():
     say_unrepeatable.cache_clear()
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from botschool import _core
-from living import built, drag, focus, grip_of, open_figures
+from living import drag, focus, grip_of
 
 
 def steps(ways, change=None):
@@ -24,37 +24,31 @@ def steps(ways, change=None):
     return np.array(found)
 
 
-@built
-def test_keys_steer_the_pole(browser, tmp_path):
-    open_figures(browser, 1, tmp_path)
-    focus(browser, "pole")
+def test_keys_steer_the_pole(page):
+    focus(page, "pole")
     ways = []
     for key, way, count in (("ArrowRight", 1, 3), ("ArrowLeft", 0, 5), ("ArrowRight", 1, 2)):
-        browser.press(key)
-        browser.run(f"figures.pole.advance({count})")
+        page.press(key)
+        page.run(f"figures.pole.advance({count})")
         ways += count * [way]
-    assert browser.run("[...figures.pole.pole.state]") == steps(ways)[-1].tolist()
-    assert browser.run("figures.pole.pole.total") == 10.0
+    assert page.run("[...figures.pole.pole.state]") == steps(ways)[-1].tolist()
+    assert page.run("figures.pole.pole.total") == 10.0
 
-    browser.run("figures.pole.press('hitRight')")
-    browser.run("figures.pole.advance(2)")
+    page.run("figures.pole.press('hitRight')")
+    page.run("figures.pole.advance(2)")
     ways += [1, 1]
-    assert browser.run("[...figures.pole.pole.state]") == steps(ways, (10, 3, 0.5))[-1].tolist()
+    assert page.run("[...figures.pole.pole.state]") == steps(ways, (10, 3, 0.5))[-1].tolist()
 
-    browser.run("figures.pole.advance(500)")
+    page.run("figures.pole.advance(500)")
     path = steps(ways + 500 * [1], (10, 3, 0.5))
-    assert browser.run("[figures.pole.pole.total, figures.pole.pole.fell]") == [len(path) - 1, True]
-    assert "the pole has fallen" in browser.run("figures.pole.canvas.getAttribute('aria-label')")
-    assert browser.errors == []
+    assert page.run("[figures.pole.pole.total, figures.pole.pole.fell]") == [len(path) - 1, True]
+    assert "the pole has fallen" in page.run("figures.pole.canvas.getAttribute('aria-label')")
 
 
-@built
-def test_the_cart_is_dragged(browser, tmp_path):
-    open_figures(browser, 1, tmp_path)
-    x, y = grip_of(browser, "pole", "grip1")
-    drag(browser, "pole", (x, y), (x + 60, y))
-    scale = browser.run("figures.pole.pole.frame[0]")
-    moved = browser.run("[...figures.pole.pole.state]")
+def test_the_cart_is_dragged(page):
+    x, y = grip_of(page, "pole", "grip1")
+    drag(page, "pole", (x, y), (x + 60, y))
+    scale = page.run("figures.pole.pole.frame[0]")
+    moved = page.run("[...figures.pole.pole.state]")
     before = steps([])[0]
     np.testing.assert_allclose(moved, before + np.array([60 / scale, 0, 0, 0]), atol=1e-6)
-    assert browser.errors == []

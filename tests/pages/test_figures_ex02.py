@@ -1,11 +1,12 @@
 """The figure of exercise 2: dragged weights give the fitness that the command gives them."""
 
 import numpy as np
+import pytest
 
 from botschool import config
 from botschool.problems.base import Episodes
 from botschool.problems.native import NativeProblem
-from living import ROOT, built, drag, focus, grip_of, open_figures, state, touch
+from living import ROOT, drag, focus, grip_of, state, touch
 
 
 def returns_by_python(genotypes):
@@ -19,36 +20,31 @@ def returns_by_python(genotypes):
     return outcome.fitness.reshape(-1, 10)
 
 
-@built
-def test_a_dragged_weight_changes_the_robot(browser, tmp_path):
-    open_figures(browser, 2, tmp_path)
-    x, y = grip_of(browser, "weights", "hidden2-angle")
-    drag(browser, "weights", (x, y), (x, y - 40))
-    focus(browser, "weights")
-    x, y = grip_of(browser, "weights", "output2-hidden2")
-    drag(browser, "weights", (x, y), (x, y - 60))
-    browser.press("ArrowUp")
-    found = state(browser, "weights")
+def test_a_dragged_weight_changes_the_robot(page):
+    x, y = grip_of(page, "weights", "hidden2-angle")
+    drag(page, "weights", (x, y), (x, y - 40))
+    focus(page, "weights")
+    x, y = grip_of(page, "weights", "output2-hidden2")
+    drag(page, "weights", (x, y), (x, y - 60))
+    page.press("ArrowUp")
+    found = state(page, "weights")
     weights = np.array(found["weights"])
     # five biases, then three rows of four weights, then two rows of three
     expected = np.zeros(23)
     expected[5 + 1 * 4 + 2], expected[5 + 12 + 1 * 3 + 1] = 0.4 + 1.2, 1.8 + 0.24
     np.testing.assert_allclose(weights, expected, atol=1e-3)
     assert found["returns"] == returns_by_python([weights])[0].tolist()
-    told = browser.run("figures.weights.canvas.getAttribute('aria-label')")
+    told = page.run("figures.weights.canvas.getAttribute('aria-label')")
     assert "angle to hidden 2 1.60" in told
-    assert browser.errors == []
 
 
-@built
-def test_one_neuron_balances_and_the_luckiest_is_the_best_of_200(browser, tmp_path):
-    open_figures(browser, 2, tmp_path)
+def test_one_neuron_balances_and_the_luckiest_is_the_best_of_200(page):
     weights = np.zeros(23)
     weights[[5 + 2, 5 + 3, 5 + 12, 5 + 15]] = 1, 1, -1, 1
-    browser.run(f"figures.weights.set({{ weights: {weights.tolist()} }})")
-    assert state(browser, "weights")["returns"] == 10 * [200.0]
-    browser.run("figures.weights.press('luckiest')")
-    found = state(browser, "weights")
+    page.run(f"figures.weights.set({{ weights: {weights.tolist()} }})")
+    assert state(page, "weights")["returns"] == 10 * [200.0]
+    page.run("figures.weights.press('luckiest')")
+    found = state(page, "weights")
     drawn = []
     for i in range(1, 201):
         draws = np.random.Generator(np.random.Philox(key=[2, i]))
@@ -57,16 +53,13 @@ def test_one_neuron_balances_and_the_luckiest_is_the_best_of_200(browser, tmp_pa
     best = int(returns.mean(axis=1).argmax())
     assert found["weights"] == drawn[best]
     assert found["returns"] == returns[best].tolist()
-    assert browser.errors == []
 
 
-@built
-def test_a_finger_drags_a_weight_and_nothing_beside_it(browser, tmp_path):
-    open_figures(browser, 2, tmp_path, width=390)
-    x, y = grip_of(browser, "weights", "hidden1-x")
-    touch(browser, "weights", (x, y), (x, y - 50))
-    assert abs(state(browser, "weights")["weights"][5] - 1.5) < 0.02
-    weights = state(browser, "weights")["weights"]
-    touch(browser, "weights", (x + 60, y - 60), (x + 60, y - 80))
-    assert state(browser, "weights")["weights"] == weights
-    assert browser.errors == []
+@pytest.mark.parametrize("page", [390], indirect=True)
+def test_a_finger_drags_a_weight_and_nothing_beside_it(page):
+    x, y = grip_of(page, "weights", "hidden1-x")
+    touch(page, "weights", (x, y), (x, y - 50))
+    assert abs(state(page, "weights")["weights"][5] - 1.5) < 0.02
+    weights = state(page, "weights")["weights"]
+    touch(page, "weights", (x + 60, y - 60), (x + 60, y - 80))
+    assert state(page, "weights")["weights"] == weights

@@ -5,7 +5,7 @@ import pytest
 
 from botschool import config
 from botschool.evolution.run import Run
-from living import ROOT, built, click, drag, grip_of, open_figures, slide, state
+from living import ROOT, click, drag, grip_of, slide, state
 
 SWING = """[EXP]
 environment = Pendulum-v1
@@ -58,54 +58,45 @@ def followed(s, generations):
     return population, curve
 
 
-@built
-def test_the_population_climbs_as_the_solution_says(browser, tmp_path):
-    open_figures(browser, 3, tmp_path)
+def test_the_population_climbs_as_the_solution_says(page):
     for key, value, generations in (("mutrate", 0.1, 3), ("mutrate", 1.2, 12), ("size", 2, 8)):
-        slide(browser, "hills", key, value)
-        browser.run("figures.hills.press('again')")
-        browser.run(f"figures.hills.advance({generations})")
-        s = state(browser, "hills")
+        slide(page, "hills", key, value)
+        page.run("figures.hills.press('again')")
+        page.run(f"figures.hills.advance({generations})")
+        s = state(page, "hills")
         population, curve = followed(s, generations)
         assert s[key] == value and s["population"] == population.tolist()
         np.testing.assert_allclose(s["curve"], curve, rtol=1e-12)
     measured, worth = max(curve)
     assert [s["record"]["measured"], s["record"]["worth"]] == pytest.approx([measured, worth])
-    assert browser.errors == []
 
 
-@built
-def test_hills_are_dragged_and_luck_is_raised(browser, tmp_path):
-    open_figures(browser, 3, tmp_path)
-    x, y = grip_of(browser, "hills", "high")
-    scale = browser.run("panels(figures.hills).map.box[2]") / 6
-    drag(browser, "hills", (x, y), (x - 40, y + 20))
-    s = state(browser, "hills")
+def test_hills_are_dragged_and_luck_is_raised(page):
+    x, y = grip_of(page, "hills", "high")
+    scale = page.run("panels(figures.hills).map.box[2]") / 6
+    drag(page, "hills", (x, y), (x - 40, y + 20))
+    s = state(page, "hills")
     np.testing.assert_allclose(s["high"], [1.2 - 40 / scale, 1.1 - 20 / scale], atol=1e-6)
-    slide(browser, "hills", "luck", 0.5)
-    click(browser, "hills", x, y + 120)
-    s = state(browser, "hills")
+    slide(page, "hills", "luck", 0.5)
+    click(page, "hills", x, y + 120)
+    s = state(page, "hills")
     np.testing.assert_allclose(s["at"], [1.2, 1.1 - 120 / scale], atol=1e-6)
-    browser.run("figures.hills.advance(4)")
-    s = state(browser, "hills")
+    page.run("figures.hills.advance(4)")
+    s = state(page, "hills")
     population, curve = followed(s, 4)
     assert s["luck"] == 0.5 and s["population"] == population.tolist()
     np.testing.assert_allclose(s["curve"], curve, rtol=1e-12)
-    assert browser.errors == []
 
 
-@built
-def test_the_pendulum_evolves_as_with_the_command(browser, tmp_path):
-    open_figures(browser, 3, tmp_path)
-    slide(browser, "swing", "size", 8)
-    slide(browser, "swing", "mutrate", 0.4)
-    browser.run("figures.swing.advance(2)")
+def test_the_pendulum_evolves_as_with_the_command(page, tmp_path):
+    slide(page, "swing", "size", 8)
+    slide(page, "swing", "mutrate", 0.4)
+    page.run("figures.swing.advance(2)")
     (tmp_path / "swing.ini").write_text(SWING)
     run = Run(config.load(tmp_path / "swing.ini"), 1)
     for _ in range(10):
         run.advance()
-    rows = browser.run("figures.swing.rows")
-    assert state(browser, "swing")["generation"] == len(rows) == 10
+    rows = page.run("figures.swing.rows")
+    assert state(page, "swing")["generation"] == len(rows) == 10
     assert rows == run.record.rows()[:, :6].tolist()
-    assert browser.run("[...figures.swing.run.bestg]") == run.record.bestg.tolist()
-    assert browser.errors == []
+    assert page.run("[...figures.swing.run.bestg]") == run.record.bestg.tolist()

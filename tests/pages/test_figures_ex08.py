@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from botschool.evolution.algorithms.openaies import OpenAIES, OpenAIESConfig
-from living import ROOT, built, drag, grip_of, open_figures, slide, state
+from living import ROOT, drag, grip_of, slide, state
 
 TOP = np.array([1.5, 1.2])
 
@@ -34,50 +34,42 @@ def followed(landscape, start, generations, lucky=False, **settings):
     return np.array(centres).tolist()
 
 
-@built
 @pytest.mark.parametrize("ground", [hill, plateau])
-def test_the_centre_climbs_as_with_the_command(browser, ground, tmp_path):
-    open_figures(browser, 8, tmp_path)
+def test_the_centre_climbs_as_with_the_command(page, ground):
     run = partial(followed, ground, [-1.7, -1.2])
-    browser.run(f"figures.cloud.press('ground-{ground.__name__}')")
-    browser.run("figures.cloud.advance(6)")
-    assert state(browser, "cloud")["trail"] == run(6)
-    browser.run("figures.cloud.reset()")
-    browser.run(f"figures.cloud.press('ground-{ground.__name__}')")
+    page.run(f"figures.cloud.press('ground-{ground.__name__}')")
+    page.run("figures.cloud.advance(6)")
+    assert state(page, "cloud")["trail"] == run(6)
+    page.run("figures.cloud.reset()")
+    page.run(f"figures.cloud.press('ground-{ground.__name__}')")
     for key, value in (("samplesize", 1), ("noise", 1.5), ("stepsize", 0.8)):
-        slide(browser, "cloud", key, value)
-    browser.run("figures.cloud.press('lucky')")
-    browser.run("figures.cloud.press('once'), figures.cloud.press('once')")
-    s = state(browser, "cloud")
+        slide(page, "cloud", key, value)
+    page.run("figures.cloud.press('lucky')")
+    page.run("figures.cloud.press('once'), figures.cloud.press('once')")
+    s = state(page, "cloud")
     assert s["trail"] == run(2, True, samplesize=1, noiseStdDev=1.5, stepsize=0.8)
-    assert browser.errors == []
 
 
-@built
-def test_the_centre_is_dragged(browser, tmp_path):
-    open_figures(browser, 8, tmp_path)
-    x, y = grip_of(browser, "cloud", "centre")
-    scale = browser.run("parts(figures.cloud).map.box[2]") / 6
-    browser.run("figures.cloud.advance(3), figures.cloud.reset()")
-    drag(browser, "cloud", (x, y), (x + 90, y - 30))
-    s = state(browser, "cloud")
+def test_the_centre_is_dragged(page):
+    x, y = grip_of(page, "cloud", "centre")
+    scale = page.run("parts(figures.cloud).map.box[2]") / 6
+    page.run("figures.cloud.advance(3), figures.cloud.reset()")
+    drag(page, "cloud", (x, y), (x + 90, y - 30))
+    s = state(page, "cloud")
     np.testing.assert_allclose(s["x"], [-1.7 + 90 / scale, -1.2 + 30 / scale], atol=1e-6)
-    browser.run("figures.cloud.advance(5)")
-    assert state(browser, "cloud")["trail"] == followed(hill, s["x"], 5)
-    assert browser.errors == []
+    page.run("figures.cloud.advance(5)")
+    assert state(page, "cloud")["trail"] == followed(hill, s["x"], 5)
 
 
-@built
-def test_bars_become_steps_of_adam(browser, tmp_path):
+def test_bars_become_steps_of_adam(page):
     names = {"__name__": "solution"}
     exec((ROOT / "solutions/ex08_openai_es/openai_es.py").read_text(), names)
-    open_figures(browser, 8, tmp_path)
-    browser.run("figures.stride.press('kind-sudden')")
-    slide(browser, "stride", "before", 3000)
-    x, y = grip_of(browser, "stride", "d20")
-    up = browser.run("rows(figures.stride).bars.box[3]") / 2
-    drag(browser, "stride", (x, y), (x, y + up))
-    s = state(browser, "stride")
+    page.run("figures.stride.press('kind-sudden')")
+    slide(page, "stride", "before", 3000)
+    x, y = grip_of(page, "stride", "d20")
+    up = page.run("rows(figures.stride).bars.box[3]") / 2
+    drag(page, "stride", (x, y), (x, y + up))
+    s = state(page, "stride")
     np.testing.assert_allclose(s["d"], 15 * [0] + 4 * [0.8] + [-0.2] + 20 * [0.8], atol=1e-6)
     centre = m = v = np.zeros(1)
     for i, d in enumerate(s["d"]):
@@ -85,4 +77,3 @@ def test_bars_become_steps_of_adam(browser, tmp_path):
         assert s["steps"][i] == pytest.approx((after - centre)[0], rel=1e-4)
         centre = after
     assert max(map(abs, s["steps"])) > 3.2
-    assert browser.errors == []

@@ -6,7 +6,7 @@ import pytest
 from botschool import _core
 from botschool.page.figures import ex09
 from botschool.problems import of
-from living import built, click, open_figures, slide, state
+from living import click, slide, state
 
 SPEED = 6
 """Index of a hopper's speed ahead in its state."""
@@ -39,40 +39,34 @@ def played(row, column, steps, push=0.0):
     return np.array(states), rewards
 
 
-@built
-def test_hoppers_earn_what_the_problem_pays(browser, tmp_path):
-    open_figures(browser, 9, tmp_path)
-    browser.run("figures.bonus.advance(60)")
+def test_hoppers_earn_what_the_problem_pays(page):
+    page.run("figures.bonus.advance(60)")
     for row, column in ((0, 1), (2, 3), (5, 0)):
-        slide(browser, "bonus", "bonus", row)
-        browser.run(f"figures.bonus.press('seed-{column + 1}')")
+        slide(page, "bonus", "bonus", row)
+        page.run(f"figures.bonus.press('seed-{column + 1}')")
         states, rewards = played(row, column, 120)
-        assert browser.run("[...chosen(figures.bonus).state]") == states[-1].tolist()
-        earned = browser.run(f"earned({row}, chosen(figures.bonus))")
+        assert page.run("[...chosen(figures.bonus).state]") == states[-1].tolist()
+        earned = page.run(f"earned({row}, chosen(figures.bonus))")
         assert earned["progress"] == pytest.approx(sum(rewards), rel=1e-12)
         assert earned["standing"] == pytest.approx(120 * ex09.BONUSES[row])
-        told = browser.run("figures.bonus.line.textContent")
+        told = page.run("figures.bonus.line.textContent")
         assert f"bonus {ex09.BONUSES[row]:g}, seed {column + 1}:" in told
         assert f"{states[-1][0] - states[0][0]:.1f} m" in told
-    assert browser.errors == []
 
 
-@built
-def test_a_hopper_is_chosen_on_the_track_and_pushed(browser, tmp_path):
-    open_figures(browser, 9, tmp_path)
-    browser.run("figures.bonus.advance(50)")
+def test_a_hopper_is_chosen_on_the_track_and_pushed(page):
+    page.run("figures.bonus.advance(50)")
     place = "(({ track }) => [track.x(metres(figures.bonus.hoppers[1][2])), track.y(-1.5)])"
-    click(browser, "bonus", *browser.run(f"{place}(plots(figures.bonus))"))
-    s = state(browser, "bonus")
+    click(page, "bonus", *page.run(f"{place}(plots(figures.bonus))"))
+    s = state(page, "bonus")
     assert (s["bonus"], s["seed"]) == (1, "3")
-    browser.run("figures.bonus.press('right')")
-    browser.run("chosen(figures.bonus).step()")
+    page.run("figures.bonus.press('right')")
+    page.run("chosen(figures.bonus).step()")
     states, rewards = played(1, 2, 101, push=1.0)
-    assert browser.run("[...chosen(figures.bonus).state]") == states[-1].tolist()
-    assert browser.run("chosen(figures.bonus).total") == pytest.approx(sum(rewards), rel=1e-12)
-    browser.run("figures.bonus.reset()")
-    assert browser.run("[...chosen(figures.bonus).state]") == played(0, 0, 0)[0][0].tolist()
-    assert browser.errors == []
+    assert page.run("[...chosen(figures.bonus).state]") == states[-1].tolist()
+    assert page.run("chosen(figures.bonus).total") == pytest.approx(sum(rewards), rel=1e-12)
+    page.run("figures.bonus.reset()")
+    assert page.run("[...chosen(figures.bonus).state]") == played(0, 0, 0)[0][0].tolist()
 
 
 def test_the_experiment_pays_the_bonus():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from living import ROOT, built, click, drag, grip_of, open_figures, slide, state
+from living import ROOT, click, drag, grip_of, slide, state
 
 CORNERS = np.array([[0, 0], [0, 1], [1, 0], [1, 1.0]])
 NAMES = ("w1", "b1", "w2", "b2")
@@ -37,54 +37,45 @@ def learnt(gradient, s, epochs):
     return now, losses
 
 
-def assert_learns(browser, gradient, epochs):
-    before = state(browser, "surface")
+def assert_learns(page, gradient, epochs):
+    before = state(page, "surface")
     expected, losses = learnt(gradient, before, epochs)
-    browser.run(f"figures.surface.advance({epochs})")
-    after = state(browser, "surface")
+    page.run(f"figures.surface.advance({epochs})")
+    after = state(page, "surface")
     for found, wanted in zip(parameters(after), expected, strict=True):
         np.testing.assert_allclose(found, wanted, rtol=1e-9)
     np.testing.assert_allclose(after["losses"][before["epoch"] :], losses, rtol=1e-9)
 
 
-@built
-def test_it_learns_as_the_solution(browser, gradient_by_hand, tmp_path):
-    open_figures(browser, 11, tmp_path)
-    assert_learns(browser, gradient_by_hand, 300)
-    browser.run("figures.surface.reset()")
-    slide(browser, "surface", "rate", 1)
-    slide(browser, "surface", "momentum", 0.5)
-    browser.run("figures.surface.press('chance')")
-    assert_learns(browser, gradient_by_hand, 300)
-    assert browser.errors == []
+def test_it_learns_as_the_solution(page, gradient_by_hand):
+    assert_learns(page, gradient_by_hand, 300)
+    page.run("figures.surface.reset()")
+    slide(page, "surface", "rate", 1)
+    slide(page, "surface", "momentum", 0.5)
+    page.run("figures.surface.press('chance')")
+    assert_learns(page, gradient_by_hand, 300)
 
 
-@built
-def test_a_dragged_line_frees_a_network(browser, gradient_by_hand, tmp_path):
-    open_figures(browser, 11, tmp_path)
-    browser.run("figures.surface.advance(600)")
-    assert browser.run("loss(figures.surface.state)") == pytest.approx(0.125, abs=0.01)
-    steep = np.linalg.norm(state(browser, "surface")["w1"][0])
-    x, y = browser.run(
+def test_a_dragged_line_frees_a_network(page, gradient_by_hand):
+    page.run("figures.surface.advance(600)")
+    assert page.run("loss(figures.surface.state)") == pytest.approx(0.125, abs=0.01)
+    steep = np.linalg.norm(state(page, "surface")["w1"][0])
+    x, y = page.run(
         "(({ map }) => [map.x(0.75), map.y(0.75)])(panels(figures.surface))"
     )  # the line then goes through (0.5, 1) and (1, 0.5)
-    drag(browser, "surface", grip_of(browser, "surface", "line1"), (x, y))
-    s = state(browser, "surface")
+    drag(page, "surface", grip_of(page, "surface", "line1"), (x, y))
+    s = state(page, "surface")
     nets = np.array([[0.5, 1], [1, 0.5]]) @ s["w1"][0] + s["b1"][0]
     np.testing.assert_allclose(nets, 0, atol=1e-5)
     assert np.linalg.norm(s["w1"][0]) == pytest.approx(steep)
-    assert_learns(browser, gradient_by_hand, 100)
-    assert browser.run("learnt(figures.surface.state)")
-    assert browser.errors == []
+    assert_learns(page, gradient_by_hand, 100)
+    assert page.run("learnt(figures.surface.state)")
 
 
-@built
-def test_a_corner_changes_its_answer(browser, gradient_by_hand, tmp_path):
-    open_figures(browser, 11, tmp_path)
-    x, y = browser.run("(({ map }) => [map.x(1), map.y(1)])(panels(figures.surface))")
-    click(browser, "surface", x, y)
-    assert state(browser, "surface")["targets"] == [0, 1, 1, 1]
-    assert_learns(browser, gradient_by_hand, 300)
-    told = browser.run("figures.surface.canvas.getAttribute('aria-label')")
+def test_a_corner_changes_its_answer(page, gradient_by_hand):
+    x, y = page.run("(({ map }) => [map.x(1), map.y(1)])(panels(figures.surface))")
+    click(page, "surface", x, y)
+    assert state(page, "surface")["targets"] == [0, 1, 1, 1]
+    assert_learns(page, gradient_by_hand, 300)
+    told = page.run("figures.surface.canvas.getAttribute('aria-label')")
     assert "Corner 1, 1: answer" in told and "target 1. Loss" in told
-    assert browser.errors == []

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from botschool import _core
-from living import ROOT, built, open_figures, slide, state
+from living import ROOT, slide, state
 
 EPISODES = """figures.elite.episodes.map(({ observations, actions, total }) =>
   ({ observations, actions, return: total }))"""
@@ -18,11 +18,10 @@ def solution():
     return names
 
 
-def episodes_of(browser):
+def episodes_of(page):
     """The episodes of the iteration that is seen, as `run_episode` returns them."""
     return [
-        {key: np.array(value) for key, value in episode.items()}
-        for episode in browser.run(EPISODES)
+        {key: np.array(value) for key, value in episode.items()} for episode in page.run(EPISODES)
     ]
 
 
@@ -34,11 +33,9 @@ def arrays(policy):
     ]
 
 
-@built
-def test_episodes_are_the_core_s(browser, solution, tmp_path):
-    open_figures(browser, 12, tmp_path)
-    browser.run("figures.elite.press('once')")
-    policy, episodes = arrays(state(browser, "elite")["policy"]), episodes_of(browser)
+def test_episodes_are_the_core_s(page, solution):
+    page.run("figures.elite.press('once')")
+    policy, episodes = arrays(state(page, "elite")["policy"]), episodes_of(page)
     stepper = _core.make_stepper("CartPole-v1")
     stepper.set(200)
     likely = []
@@ -50,63 +47,53 @@ def test_episodes_are_the_core_s(browser, solution, tmp_path):
             _, ended = stepper.step(np.array([float(action)]))
         assert ended and episode["return"] == len(episode["actions"])
     assert np.mean(likely) == pytest.approx(0.5, abs=0.1)
-    assert browser.errors == []
 
 
-@built
-def test_the_slider_chooses_the_elite(browser, solution, tmp_path):
-    open_figures(browser, 12, tmp_path)
-    browser.run("figures.elite.press('once'), figures.elite.press('once')")
-    episodes = episodes_of(browser)
+def test_the_slider_chooses_the_elite(page, solution):
+    page.run("figures.elite.press('once'), figures.elite.press('once')")
+    episodes = episodes_of(page)
     for percentile in (0, 35, 70, 95):
-        slide(browser, "elite", "percentile", percentile)
+        slide(page, "elite", "percentile", percentile)
         chosen = solution["elite"](episodes, percentile)
-        assert browser.run("boundOf(figures.elite)") == pytest.approx(chosen["bound"], abs=1e-9)
-        actions = browser.run("elite(figures.elite).flatMap(({ actions }) => actions)")
+        assert page.run("boundOf(figures.elite)") == pytest.approx(chosen["bound"], abs=1e-9)
+        actions = page.run("elite(figures.elite).flatMap(({ actions }) => actions)")
         assert actions == chosen["actions"].tolist()
-        told = browser.run("figures.elite.line.textContent")
+        told = page.run("figures.elite.line.textContent")
         teachers = sum(episode["return"] >= chosen["bound"] for episode in episodes)
         assert f"{teachers} episodes teach" in told
-    assert browser.errors == []
 
 
-@built
 @pytest.mark.parametrize("percentile", [70, 90])
-def test_the_elite_teaches(browser, solution, percentile, tmp_path):
+def test_the_elite_teaches(page, solution, percentile):
     torch = solution["torch"]
-    open_figures(browser, 12, tmp_path)
-    slide(browser, "elite", "percentile", percentile)
-    browser.run("figures.elite.press('once')")
+    slide(page, "elite", "percentile", percentile)
+    page.run("figures.elite.press('once')")
     network = solution["make_network"](4, 2)
-    before = arrays(state(browser, "elite")["policy"])
+    before = arrays(state(page, "elite")["policy"])
     with torch.no_grad():
         for parameter, values in zip(network.parameters(), before, strict=True):
             parameter.copy_(torch.tensor(values))
-    chosen = solution["elite"](episodes_of(browser), percentile)
+    chosen = solution["elite"](episodes_of(page), percentile)
     optimiser = torch.optim.Adam(network.parameters(), lr=0.01)
     given = chosen["observations"], chosen["actions"], solution["cross_entropy"], 10
     solution["improve"](network, optimiser, *given)
 
-    browser.run("figures.elite.press('once')")
-    s = state(browser, "elite")
+    page.run("figures.elite.press('once')")
+    s = state(page, "elite")
     assert s["updates"] == 10 and len(s["rows"]) == 1
     for found, wanted in zip(arrays(s["policy"]), solution["parameters_of"](network), strict=True):
         np.testing.assert_allclose(found, wanted, atol=1e-4)
-    assert browser.errors == []
 
 
-@built
-def test_a_training_reaches_the_goal(browser, tmp_path):
-    open_figures(browser, 12, tmp_path)
-    slide(browser, "elite", "percentile", 90)
-    while not browser.run("over(figures.elite)"):
-        browser.run("figures.elite.press('once')")
-    assert len(state(browser, "elite")["rows"]) < 30
-    assert browser.run("mean(figures.elite.episodes.map(({ total }) => total))") >= 195
-    assert "the training ends" in browser.run("figures.elite.line.textContent")
-    browser.run("figures.elite.play(), figures.elite.advance(1)")  # it begins anew
-    assert browser.run("figures.elite.playing")
-    browser.run("figures.elite.stop()")
-    s = state(browser, "elite")
+def test_a_training_reaches_the_goal(page):
+    slide(page, "elite", "percentile", 90)
+    while not page.run("over(figures.elite)"):
+        page.run("figures.elite.press('once')")
+    assert len(state(page, "elite")["rows"]) < 30
+    assert page.run("mean(figures.elite.episodes.map(({ total }) => total))") >= 195
+    assert "the training ends" in page.run("figures.elite.line.textContent")
+    page.run("figures.elite.play(), figures.elite.advance(1)")  # it begins anew
+    assert page.run("figures.elite.playing")
+    page.run("figures.elite.stop()")
+    s = state(page, "elite")
     assert s["rows"] == [] and len(s["past"]) == 1
-    assert browser.errors == []

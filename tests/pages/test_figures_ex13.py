@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from living import ROOT, built, drag, grip_of, open_figures, slide, state
+from living import ROOT, drag, grip_of, slide, state
 
 
 @pytest.fixture(scope="module")
@@ -26,72 +26,60 @@ def judged(solution, s):
     return found[:, 0]
 
 
-@built
-def test_rewards_values_and_the_end_are_dragged(browser, solution, tmp_path):
-    open_figures(browser, 13, tmp_path)
-    before = state(browser, "strip")
+def test_rewards_values_and_the_end_are_dragged(page, solution):
+    before = state(page, "strip")
     np.testing.assert_allclose(before["advantages"], judged(solution, before), atol=1e-6)
     assert np.flatnonzero(before["advantages"]).tolist() == [*range(8, 15)]
-    pixels = browser.run("strips(figures.strip).rewards.box[3]") / 4.8
+    pixels = page.run("strips(figures.strip).rewards.box[3]") / 4.8
     for grip, up in (("rewards4", 1), ("values11", -1.5), ("values21", 1)):
-        x, y = grip_of(browser, "strip", grip)
-        drag(browser, "strip", (x, y), (x, y - up * pixels))
-    x, y = grip_of(browser, "strip", "end")
-    step = browser.run("strips(figures.strip).rewards.x(1) - strips(figures.strip).rewards.x(0)")
-    drag(browser, "strip", (x, y), (x + 3 * step, y))
-    slide(browser, "strip", "lambda", 0.6)
-    slide(browser, "strip", "gamma", 0.9)
-    s = state(browser, "strip")
+        x, y = grip_of(page, "strip", grip)
+        drag(page, "strip", (x, y), (x, y - up * pixels))
+    x, y = grip_of(page, "strip", "end")
+    step = page.run("strips(figures.strip).rewards.x(1) - strips(figures.strip).rewards.x(0)")
+    drag(page, "strip", (x, y), (x + 3 * step, y))
+    slide(page, "strip", "lambda", 0.6)
+    slide(page, "strip", "gamma", 0.9)
+    s = state(page, "strip")
     assert [s["end"], s["lambda"], s["gamma"]] == [11, 0.6, 0.9]
     moved = [s["rewards"][3], s["values"][10], s["values"][20]]
     np.testing.assert_allclose(moved, [1, -1.5, 1], atol=1e-6)
     np.testing.assert_allclose(s["advantages"], judged(solution, s), atol=1e-6)
-    assert browser.errors == []
 
 
-@built
-def test_strips_are_chosen(browser, solution, tmp_path):
-    open_figures(browser, 13, tmp_path)
-    browser.run("figures.strip.press('strip-tiny')")
-    assert state(browser, "strip")["advantages"] == [-0.25, -0.5, -1.0]
+def test_strips_are_chosen(page, solution):
+    page.run("figures.strip.press('strip-tiny')")
+    assert state(page, "strip")["advantages"] == [-0.25, -0.5, -1.0]
     for strip in ("fall", "luck"):
-        browser.run(f"figures.strip.press('strip-{strip}')")
-        s = state(browser, "strip")
+        page.run(f"figures.strip.press('strip-{strip}')")
+        s = state(page, "strip")
         np.testing.assert_allclose(s["advantages"], judged(solution, s), atol=1e-5)
-    assert browser.errors == []
 
 
-@built
 @pytest.mark.parametrize("advantage", [1.5, -1])
-def test_the_ratio_is_pulled(browser, solution, advantage, tmp_path):
+def test_the_ratio_is_pulled(page, solution, advantage):
     """What PPO maximises is minus the loss of one step, and the gradient its slope."""
 
     def maximised(ratio):
         given = np.log([ratio]), np.zeros(1), np.array([float(advantage)]), 0.2
         return -solution["policy_loss"](*given)["loss"]
 
-    open_figures(browser, 13, tmp_path)
-    slide(browser, "clip", "advantage", advantage)
+    slide(page, "clip", "advantage", advantage)
     for ratio in (0.5, 0.9, 1.1, 1.6):
-        place = grip_of(browser, "clip", "ratio")
-        x = browser.run(f"clipParts(figures.clip).curve.x({ratio})")
-        drag(browser, "clip", place, (x, place[1] + 20))
-        pulled = state(browser, "clip")["ratio"]
+        place = grip_of(page, "clip", "ratio")
+        x = page.run(f"clipParts(figures.clip).curve.x({ratio})")
+        drag(page, "clip", place, (x, place[1] + 20))
+        pulled = state(page, "clip")["ratio"]
         assert pulled == pytest.approx(ratio, abs=1e-6)
-        found = browser.run("[objective(figures.clip.state), slope(figures.clip.state)]")
+        found = page.run("[objective(figures.clip.state), slope(figures.clip.state)]")
         slope = (maximised(pulled + 1e-6) - maximised(pulled - 1e-6)) / 2e-6
         np.testing.assert_allclose(found, [maximised(pulled), slope], atol=1e-6)
-    assert browser.errors == []
 
 
-@built
-def test_updates_end_behind_the_clip(browser, tmp_path):
-    open_figures(browser, 13, tmp_path)
-    browser.run("figures.clip.advance(100)")
-    good = state(browser, "clip")
+def test_updates_end_behind_the_clip(page):
+    page.run("figures.clip.advance(100)")
+    good = state(page, "clip")
     assert 1.2 < good["ratio"] < 1.5 and 0 < good["updates"] < 50
-    slide(browser, "clip", "advantage", -1)
-    browser.run("figures.clip.advance(100)")
-    assert 0.5 < state(browser, "clip")["ratio"] < 0.8
-    assert "gradient is zero" in browser.run("figures.clip.canvas.getAttribute('aria-label')")
-    assert browser.errors == []
+    slide(page, "clip", "advantage", -1)
+    page.run("figures.clip.advance(100)")
+    assert 0.5 < state(page, "clip")["ratio"] < 0.8
+    assert "gradient is zero" in page.run("figures.clip.canvas.getAttribute('aria-label')")

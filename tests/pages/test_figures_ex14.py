@@ -8,7 +8,7 @@ from botschool.evolution.run import Run
 from botschool.page import training
 from botschool.paths import material
 from botschool.rl.native import training as native
-from living import ROOT, built, open_figures, state
+from living import ROOT, state
 
 RACES = {
     "cartpole": ("CartPole-v1", "cartpole_openaies.ini"),
@@ -25,23 +25,21 @@ def curve_of():
     return names["curve_of"]
 
 
-def raced(browser, rounds):
+def raced(page, rounds):
     """Let a race go on, and return its state."""
     for _ in range(rounds):
-        browser.run("figures.race.advance(10)")
-    return state(browser, "race")
+        page.run("figures.race.advance(10)")
+    return state(page, "race")
 
 
-@built
 @pytest.mark.parametrize(
     ("problem", "rounds"), [("cartpole", 12), ("pendulum", 5), ("acrobot", 16)]
 )
-def test_both_sides_are_the_command_s(browser, curve_of, problem, rounds, tmp_path):
+def test_both_sides_are_the_command_s(page, curve_of, problem, rounds, tmp_path):
     env, ini = RACES[problem]
-    open_figures(browser, 14, tmp_path)
     for button in (f"problem-{problem}", "other"):
-        browser.run(f"figures.race.buttons['{button}'].element.click()")
-    s = raced(browser, rounds)
+        page.run(f"figures.race.buttons['{button}'].element.click()")
+    s = raced(page, rounds)
     assert s["seed"] == 2 and len(s["es"]) >= 3 and len(s["ppo"]) >= 2
 
     experiment = config.load(material() / "data/experiments" / ini)
@@ -50,7 +48,7 @@ def test_both_sides_are_the_command_s(browser, curve_of, problem, rounds, tmp_pa
     for _ in s["es"]:
         run.advance()
     assert s["es"] == run.record.rows()[:, [0, 2]].tolist()
-    assert browser.run("[...figures.race.runs.es.bestg]") == run.record.bestg.tolist()
+    assert page.run("[...figures.race.runs.es.bestg]") == run.record.bestg.tolist()
 
     settings = training.settings_of(env, 2)
     made, _ = native.learn(settings, tmp_path / "run", lambda steps, found: None)
@@ -60,23 +58,19 @@ def test_both_sides_are_the_command_s(browser, curve_of, problem, rounds, tmp_pa
     # of Acrobot's episodes that end early, the last step costs nothing
     close = {"rtol": 0, "atol": 20 * len(found) if problem == "acrobot" else 1e-6}
     np.testing.assert_allclose(found[:, 0], curve["steps"][: len(found)], **close)
-    assert browser.errors == []
 
 
-@built
-def test_a_race_goes_to_its_end(browser, tmp_path):
-    open_figures(browser, 14, tmp_path)
-    while not state(browser, "race")["over"]:
-        raced(browser, 5)
-    s = state(browser, "race")
+def test_a_race_goes_to_its_end(page):
+    while not state(page, "race")["over"]:
+        raced(page, 5)
+    s = state(page, "race")
     assert s["spent"]["es"] >= 300_000
     assert s["ppo"][-1][1] == 500
-    told = browser.run("figures.race.canvas.getAttribute('aria-label')")
+    told = page.run("figures.race.canvas.getAttribute('aria-label')")
     assert "PPO has a best post-evaluation of 500" in told
-    browser.run("figures.race.play(), figures.race.advance(1)")  # the next seed's race
-    assert browser.run("figures.race.playing")
-    browser.run("figures.race.stop()")
-    after = state(browser, "race")
+    page.run("figures.race.play(), figures.race.advance(1)")  # the next seed's race
+    assert page.run("figures.race.playing")
+    page.run("figures.race.stop()")
+    after = state(page, "race")
     assert after["seed"] == 2 and not after["over"]
     assert after["past"][0]["ppo"][-1][1] == 500
-    assert browser.errors == []

@@ -480,16 +480,6 @@ def test_hands_on_an_agent_do_what_they_say(env, tmp_path):
     np.testing.assert_array_equal(found[:, -ppo.outputs :], [row[size:] for row in rows])
 
 
-@built
-def test_frozen_memory_stays(tmp_path):
-    experiment = experiment_of("ErDiscrim", "OpenAI-ES", architecture=3)
-    genotype = 3 * NativeProblem("ErDiscrim").policy(experiment.policy).initial(4)
-    free = benched(experiment, genotype, [], tmp_path)
-    late = benched(experiment, genotype, [[30, "freeze", 0, 0]], tmp_path)
-    np.testing.assert_array_equal(late[:31], free[:31])
-    assert (late[31:, 1:3] != free[31:, 1:3]).any()
-
-
 def frozen_by_python(experiment, genotype, when):
     """Each step from `when` on is the first one after the same `when` steps."""
     from botschool import _core
@@ -585,11 +575,6 @@ def test_an_algorithm_that_pages_lack_is_refused(algo, refused, tmp_path):
     file.write_text("\n".join(lines) + "\n")
     refused("page", file, "-o", tmp_path / "a.html", says=[algo, "OpenAI-ES or SSS"])
     assert not (tmp_path / "a.html").exists()
-
-
-def test_maphopper_is_refused(refused, tmp_path):
-    file = ROOT / "data/experiments/maphopper.ini"
-    refused("page", file, "-o", tmp_path / "a.html", says=["MAP-Elites", "OpenAI-ES or SSS"])
 
 
 @pytest.mark.parametrize(

@@ -199,7 +199,6 @@ def test_a_game_of_atari_trains(algo, env, tmp_path):
 
 @pytest.mark.usefixtures("by_sb3")
 def test_rewards_are_cut_in_training_alone(monkeypatch):
-    monkeypatch.syspath_prepend(TESTS)
     entry = {"steps": 10, "envs": 1, "wrappers": "tiny_envs:Doubled(times=9)"}
     entry["training_wrappers"] = "ClipReward(min_reward=-1, max_reward=1)"
     monkeypatch.setattr(settings, "_defaults", lambda: {"ppo": {"default": entry}})

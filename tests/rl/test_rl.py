@@ -19,7 +19,7 @@ from botschool.rl.parameters import complete
 from botschool.rl.training import train
 from botschool.seeds import POST_EVALUATION_SEED
 from botschool.wrappers import parse
-from running import TESTS, call, finish, one_sentence, start
+from running import call, finish, one_sentence, start
 
 pytest.importorskip("stable_baselines3")
 pytestmark = pytest.mark.usefixtures("by_sb3")
@@ -51,11 +51,6 @@ def tiny(folder, algo="ppo", env="CartPole-v1", **options):
 def trained(tmp_path_factory):
     """One training for the tests that only look at it."""
     return tiny(tmp_path_factory.mktemp("rl"))
-
-
-@pytest.fixture(autouse=True)
-def own_environments(monkeypatch):
-    monkeypatch.syspath_prepend(TESTS)
 
 
 def again(run, model):

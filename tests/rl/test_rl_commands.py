@@ -16,16 +16,10 @@ from botschool.rl.settings import Settings
 from botschool.rl.spellings import translated
 from botschool.rl.training import learn, train
 from botschool.seeds import POST_EVALUATION_SEED
-from running import TESTS
 from test_analysis import drawn, lines_of, save_run, stat_of  # noqa: F401  (drawn is a fixture)
 
 pytest.importorskip("sb3_contrib")
 callbacks = pytest.importorskip("botschool.rl.callbacks")
-
-
-@pytest.fixture(autouse=True)
-def own_environments(monkeypatch):
-    monkeypatch.syspath_prepend(TESTS)
 
 
 def tiny(folder, algo, env, **options):

@@ -16,7 +16,6 @@ from botschool.rl.parameters import parse
 from botschool.rl.settings import Settings
 from botschool.rl.training import train
 from botschool.rl.weights import WEIGHTS
-from running import TESTS
 
 pytest.importorskip("stable_baselines3")
 pytestmark = pytest.mark.usefixtures("by_sb3")
@@ -204,7 +203,6 @@ def test_folders_without_trainings(tmp_path, refused):
 
 
 def test_pictures_where_there_are_none(trained, tmp_path, refused, monkeypatch):
-    monkeypatch.syspath_prepend(TESTS)
     refused("rl", "enjoy", trained.path, "--render", "human", says=["display", "rl video"])
     refused("rl", "enjoy", trained.path, "--render", "x", says="human or none")
     refused("rl", "video", trained.path, "-f", tmp_path / "a.txt", says=".mp4")

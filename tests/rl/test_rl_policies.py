@@ -27,17 +27,10 @@ SMALL = {"n_steps": 32, "batch_size": 32, "n_epochs": 1}
 OWN = "own_policies:Narrow"
 
 
-@pytest.fixture(autouse=True)
-def own_policies(monkeypatch):
-    monkeypatch.syspath_prepend(TESTS)
-
-
 @pytest.fixture(scope="module")
 def trained(tmp_path_factory):
-    with pytest.MonkeyPatch.context() as patch:
-        patch.syspath_prepend(TESTS)
-        folder = tmp_path_factory.mktemp("own")
-        return train("ppo", "CartPole-v1", folder, policy=OWN, params=SMALL, **TINY)
+    folder = tmp_path_factory.mktemp("own")
+    return train("ppo", "CartPole-v1", folder, policy=OWN, params=SMALL, **TINY)
 
 
 def test_it_is_trained_with_its_own_parts(trained):
@@ -160,7 +153,6 @@ BRIEF = {"steps": 24, "envs": 1, "seed": 3, "evaluations": 2, "episodes": 2, "wr
 
 @pytest.fixture(autouse=True)
 def small_space(monkeypatch):
-    monkeypatch.syspath_prepend(TESTS)
     space = {"n_steps": (8, 12), "learning_rate": Log(1e-4, 1.0), "net_arch": ("[4]", "[8, 8]")}
     monkeypatch.setattr(tuning, "SPACES", {"a2c": space})
 
