@@ -5,21 +5,17 @@ from __future__ import annotations
 import time
 from functools import partial
 from importlib.util import find_spec
-from pathlib import Path
 
 import gymnasium
 import numpy as np
 from report import Table, rate, verdict
-from speed import best_call
+from speed import DATA, Around, best_call
 
 from botschool import config
 from botschool.envs.bullet import hushed
 from botschool.envs.locomotors import Locomotor
-from botschool.policies.policy import Policy
-from botschool.problems import Episodes, make
 
 BODIES = ("Hopper", "HalfCheetah", "Ant", "Walker2D", "Humanoid")
-DATA = Path(__file__).parents[2] / "data"
 TARGET, TWO_WORKERS = 1.6, 1.8
 CANDIDATES = 40
 EPISODE = 200
@@ -133,29 +129,6 @@ def locomotors(repetitions: int) -> Table:
     return table
 
 
-class Generation:
-    """The candidates of one generation around an evolved robot, an episode each."""
-
-    def __init__(self, robot: str) -> None:
-        experiment = config.load(DATA / "experiments" / f"{robot}.ini")
-        self.maxsteps = experiment.policy.maxsteps
-        self.problem = make(experiment.exp.environment)
-        self.policy = Policy(robot, self.problem.interface, experiment.policy)
-        saved = np.load(DATA / "genotypes" / f"{robot}.npy")
-        centre, self.normalisation = self.policy.split(saved)
-        noise = np.random.default_rng(0).standard_normal((CANDIDATES, len(centre)))
-        self.genotypes = centre + experiment.algo.noiseStdDev * noise
-        self.episodes = Episodes.of(np.arange(CANDIDATES), 1)
-
-    def evaluate(self, workers: int) -> int:
-        """Returns the steps done."""
-        outcome = self.problem.evaluate(
-            *(self.policy, self.genotypes, self.normalisation, self.episodes),
-            *(self.maxsteps, workers),
-        )
-        return int(outcome.steps.sum())
-
-
 def two_workers(repetitions: int) -> Table:
     """A generation of each locomotor, in one process and in two."""
     table = Table(
@@ -169,7 +142,8 @@ def two_workers(repetitions: int) -> Table:
         table.add("PyBullet is not installed", *["-"] * 5)
         return table
     for body in BODIES:
-        own = Generation(body.lower())
+        noise = config.load(DATA / f"{body.lower()}.ini").algo.noiseStdDev
+        own = Around(body.lower(), CANDIDATES, noise)
         steps = own.evaluate(2)  # starts the workers
         one, two = best_call([partial(own.evaluate, w) for w in (1, 2)], repetitions)
         table.add(

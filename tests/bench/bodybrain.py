@@ -8,15 +8,14 @@ from pathlib import Path
 
 import numpy as np
 from report import Table, rate
-from speed import rates
+from speed import Around, rates
 
 from botschool import config
 from botschool.policies.policy import Policy
-from botschool.problems import Episodes, make
+from botschool.problems import make
 
 ROOT = Path(__file__).parents[2]
 STEPS = 200
-SCALED = 0.02
 ENVIRONMENT = "botschool/BodyBrain-v0"
 
 
@@ -114,32 +113,11 @@ def _robots() -> dict[str, np.ndarray]:
     return {"straight body": np.concatenate([np.zeros(size + 35), np.ones(35)]), **robots}
 
 
-class Around:
-    """Candidates around the first robot of an experiment in data/genotypes, an episode each."""
-
-    def __init__(self, name: str, candidates: int) -> None:
-        experiment = config.load(ROOT / "data" / "experiments" / f"{name}.ini")
-        self.problem = make(experiment.exp.environment)
-        self.policy = Policy(self.problem.name, self.problem.interface, experiment.policy)
-        saved = np.load(ROOT / "data" / "genotypes" / f"{name}.npy")
-        genotype, self.normalisation = self.policy.split(saved)
-        noise = np.random.default_rng(1).normal(0, SCALED, (candidates, genotype.size))
-        self.genotypes, self.longest = genotype + noise, experiment.policy.maxsteps
-        self.episodes = Episodes.of(np.arange(candidates), 1)
-
-    def evaluate(self) -> int:
-        """Returns the steps done."""
-        outcome = self.problem.evaluate(
-            self.policy, self.genotypes, self.normalisation, self.episodes, self.longest
-        )
-        return int(outcome.steps.sum())
-
-
 def chains(seconds: float, repetitions: int) -> Table:
     """The native chain beside Box2D's."""
     table = Table(
         "BodyBrain's chain, native and in Box2D, one core",
-        f"Steps/s of policy and problem: candidates around the evolved robot (noise {SCALED}), an "
+        f"Steps/s of policy and problem: candidates around the evolved robot (noise 0.02), an "
         f"episode of 400 steps each; best of {repetitions} interleaved repetitions, in processor "
         "time.",
         ["planarbodybrain.ini", "bodybrain.ini (Box2D)", "ratio"],

@@ -5,18 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from importlib.util import find_spec
-from pathlib import Path
 
 import gymnasium
 import numpy as np
 from report import Table, rate, verdict
-from speed import best_call, rates
+from speed import DATA, Around, best_call, rates
 
-from botschool import config, problems
+from botschool import config
 from botschool.policies.policy import Interface, Policy
-from botschool.problems import Episodes
 
-DATA = Path(__file__).parents[2] / "data"
 BODIES = {
     # experiment file: target (steps/s), id in Gymnasium and in EnvPool, ours in PyBullet
     "planarhopper": (300e3, "Hopper-v5", "HopperBulletEnv-v5"),
@@ -30,28 +27,6 @@ CANDIDATES = 320
 LONG_BATCH = 1280
 STEPS = 100
 """Of a turn of those who play in Python."""
-SCALED = 0.02
-
-
-class Around:
-    """Candidates around an evolved runner, so that most episodes are whole ones."""
-
-    def __init__(self, name: str, candidates: int = CANDIDATES) -> None:
-        experiment = config.load(DATA / "experiments" / f"{name}.ini")
-        self.problem = problems.of(experiment)
-        self.policy = Policy(self.problem.name, self.problem.interface, experiment.policy)
-        saved = np.load(DATA / "genotypes" / f"{name}.npy")
-        self.genotype, self.normalisation = self.policy.split(saved)
-        noise = np.random.default_rng(1).normal(0, SCALED, (candidates, self.genotype.size))
-        self.genotypes = self.genotype + noise
-        self.episodes = Episodes.of(np.arange(candidates), 1)
-
-    def evaluate(self, workers: int = 1) -> int:
-        """An episode of each; returns the steps done."""
-        outcome = self.problem.evaluate(
-            self.policy, self.genotypes, self.normalisation, self.episodes, 1000, workers
-        )
-        return int(outcome.steps.sum())
 
 
 class InPython:
@@ -97,7 +72,7 @@ class InEnvPool:
 
 def _evolved(body: str) -> bool:
     """Return whether data/genotypes has the robot."""
-    return (DATA / "genotypes" / f"{body}.npy").is_file()
+    return (DATA.parent / "genotypes" / f"{body}.npy").is_file()
 
 
 def _others(body: str, hiddens: int) -> list[Callable[[], int] | None]:
@@ -117,7 +92,7 @@ def runners(seconds: float, repetitions: int) -> Table:
     """Steps per second, one core."""
     table = Table(
         "Runners: steps/s of policy and problem, one core",
-        f"{CANDIDATES} candidates around the robots of data/genotypes (noise {SCALED}), an episode "
+        f"{CANDIDATES} candidates around the robots of data/genotypes (noise 0.02), an episode "
         f"each; best of {repetitions} interleaved repetitions, in processor time. MuJoCo and "
         "PyBullet: a Python loop over gymnasium.make(id) with a random network of the same size "
         "in double precision. EnvPool: 64 environments stepped by one thread, random actions, "
@@ -131,7 +106,7 @@ def runners(seconds: float, repetitions: int) -> Table:
     for body, (target, *_) in BODIES.items():
         if not _evolved(body):
             continue
-        around = Around(body)
+        around = Around(body, CANDIDATES)
         others = _others(body, around.policy.config.nhiddens)
         present = [player for player in others if player]
         best = iter([max(r) for r in rates([around.evaluate, *present], seconds, repetitions)])

@@ -10,7 +10,7 @@ from pathlib import Path
 import gymnasium
 import numpy as np
 
-from botschool import config
+from botschool import config, problems
 from botschool.analysis.populations import Populations
 from botschool.config import Experiment
 from botschool.evolution.algorithms.sides import everyone
@@ -67,7 +67,7 @@ class Batch:
             self.normalisation = np.repeat([0.0, 1.0], self.problem.interface.observations)
 
     def evaluate(self, workers: int = 1) -> int:
-        """Evaluates all natively; returns the steps done."""
+        """Evaluates all; returns the steps done."""
         outcome = self.problem.evaluate(
             self.policy,
             self.genotypes,
@@ -77,6 +77,20 @@ class Batch:
             workers,
         )
         return int(outcome.steps.sum())
+
+
+class Around(Batch):
+    """Candidates around an evolved robot, an episode each, so that most episodes are whole ones."""
+
+    def __init__(self, name: str, candidates: int, noise: float = 0.02) -> None:
+        self.experiment = config.load(DATA / f"{name}.ini")
+        self.problem = problems.of(self.experiment)
+        self.policy = self.problem.policy(self.experiment.policy)
+        saved = np.load(DATA.parent / "genotypes" / f"{name}.npy")
+        self.genotype, self.normalisation = self.policy.split(saved)
+        numbers = np.random.default_rng(SEED)
+        self.genotypes = self.genotype + numbers.normal(0, noise, (candidates, self.genotype.size))
+        self.episodes = Episodes.of(np.arange(candidates), 1)
 
 
 class Meetings:

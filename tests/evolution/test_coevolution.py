@@ -390,6 +390,14 @@ def test_phases_are_those_of_the_experiment(tmp_path):
     assert phases[1:] == [0, 0, 0, 1, 1]
 
 
+def told(process, generations):
+    """Wait until a run has told of so many generations."""
+    while generations:
+        line = process.stdout.readline()
+        assert line
+        generations -= line.startswith("seed 3  generation")
+
+
 @posix
 def test_ten_kills_do_not_show(tmp_path):
     """By kill -9, at random moments of the real command."""
@@ -397,8 +405,7 @@ def test_ten_kills_do_not_show(tmp_path):
     own = experiment(tmp_path, ngenerations=100_000, saveeach=3)
     for _ in range(10):
         process = start(*arguments(tmp_path, "--resume"))
-        for _ in range(chance.randint(0, 4)):
-            process.stdout.readline()
+        told(process, chance.randint(0, 4))
         for _ in range(chance.randint(0, 2000)):
             process.poll()
         process.kill()
@@ -415,8 +422,7 @@ def test_ten_kills_do_not_show(tmp_path):
 def test_ctrl_c_saves_the_last_whole_generation(tmp_path):
     own = experiment(tmp_path, ngenerations=100_000, saveeach=1000)
     process = start(*arguments(tmp_path, "-w", 2))
-    for _ in range(3):
-        assert process.stdout.readline().startswith("seed 3  generation")
+    told(process, 3)
     process.send_signal(signal.SIGINT)
     code, out, errors = finish(process)
     assert (code, errors) == (130, "")
@@ -441,8 +447,9 @@ def test_populations_take_part_in_tournaments(whole, command, tmp_path):
         generation = whole.saved[-2]
         networks = np.load(whole.folder / f"S3G{generation}.npy")
         expected = Contest(whole.own, 3).meet(*np.split(networks, 2)).mean()
-        (row,) = (r.split() for r in out.splitlines() if r.split()[:1] == [str(generation)])
-        assert row[2 + whole.saved.index(generation) - 1] == f"{expected:.2f}"
+        rows = map(str.split, out.splitlines())
+        row = next(row for row in rows if row[:1] == [str(generation)])  # of the predators' table
+        assert row[1 + whole.saved.index(generation)] == f"{expected:.2f}"
 
 
 def test_populations_are_shown_and_measured(whole, command, tmp_path):
