@@ -14,11 +14,12 @@ from pathlib import Path
 import pytest
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.choice import Wanted
+from botschool.grading.classes.choice import Wanted, find_submissions
 from botschool.grading.classes.export import one_person, read_export
-from botschool.grading.classes.finding import find_submissions, numbered_folders
+from botschool.grading.classes.files import numbered_folders
 from botschool.grading.classes.policy import read_policy
-from botschool.grading.classes.register import Register, Settings
+from botschool.grading.classes.register import Register
+from botschool.grading.classes.rules import Policy
 from botschool.grading.classes.texts import decoded, text_of_page
 from botschool.grading.classes.unpack import Room, Unpackable, unpack
 from botschool.grading.copies.skeleton import skeleton
@@ -62,7 +63,7 @@ def find(course, tmp_path):
         shutil.rmtree(folder, ignore_errors=True)
         new_folder, wanted = numbered_folders(folder), [Wanted(3, FILE, course)]
         export = read_export(download, wanted, new_folder)
-        register = Register(find_submissions(export.people, wanted, course, new_folder), Settings())
+        register = Register(find_submissions(export.people, wanted, course, new_folder), Policy())
         named = {row.name: row.parts[0] for row in register.rows}
         assert len(named) == len(export.people)
         return named, export
@@ -145,7 +146,7 @@ def test_the_newest_attempt_that_was_changed_is_graded(find, tmp_path):
         one = Handed("Ada L", {FILE: last.encode()}, late=True, attempts=tries)
         shutil.rmtree(tmp_path / "class", ignore_errors=True)
         found, _ = find(written(tmp_path / "class", PLATFORMS["canvas"]([one])))
-        assert found["lada"].person.late
+        assert found["lada"].late
         assert found["lada"].choices[3].file.read_text() == right
         assert any("Not used" in note for note in found["lada"].choices[3].notes)
 
@@ -186,7 +187,7 @@ def test_a_group_has_a_row_for_each(find, tmp_path):
     found, _ = find(tmp_path / "class")
     assert set(found) == {"Ada", "Bob", "submission_8"}
     assert found["Ada"].choices[3].file == found["Bob"].choices[3].file
-    assert found["Ada"].person.ids["email"] == "a@b.c"
+    assert found["Ada"].ids["email"] == "a@b.c"
 
 
 @pytest.mark.parametrize("metadata", ["- submission_7", "words", "7"])

@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.gradebook import canvas_gradebook, moodle_worksheet
-from botschool.grading.classes.people import Person
+from botschool.grading.classes.export import Person
+from botschool.grading.classes.identity import read_roster
+from botschool.grading.classes.outputs import canvas_gradebook, moodle_worksheet
 from botschool.grading.classes.policy import LateRule, read_policy
-from botschool.grading.classes.roster import read_roster
 from botschool.grading.classes.similar import Program, similar_pairs, similarity_page
 from botschool.grading.classes.statistics import by_task, hardest, statistics_page
 from botschool.grading.classes.tables import safe_cell

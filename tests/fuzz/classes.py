@@ -45,9 +45,8 @@ bonus: yes
     def read(self, path: Path) -> None:
         from datetime import datetime
 
-        from botschool.grading.classes.identity import Student
+        from botschool.grading.classes.identity import Student, read_roster
         from botschool.grading.classes.policy import read_policy
-        from botschool.grading.classes.roster import read_roster
 
         policy = read_policy(path)
         for number in (3, 4):
@@ -87,8 +86,8 @@ class ClassList(Kind):
 
     def read(self, path: Path) -> None:
         from botschool.grading.classes.export import Person
-        from botschool.grading.classes.gradebook import canvas_gradebook, moodle_worksheet
-        from botschool.grading.classes.roster import read_roster
+        from botschool.grading.classes.identity import read_roster
+        from botschool.grading.classes.outputs import canvas_gradebook, moodle_worksheet
 
         roster = read_roster(path)
         roster.match(Person("Ada Lovelace", "ada"))
@@ -123,8 +122,9 @@ class Download(Kind):
         return [archive_of(files) for files in every.values()]
 
     def read(self, path: Path) -> None:
+        from botschool.grading.classes.choice import find_submissions
         from botschool.grading.classes.export import read_export
-        from botschool.grading.classes.finding import find_submissions, numbered_folders
+        from botschool.grading.classes.files import numbered_folders
 
         folder = self.folder / "unpacked"
         try:

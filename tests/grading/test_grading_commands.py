@@ -174,7 +174,7 @@ def test_points_that_no_grading_has_stored_do_not_count(course, points):
     exercise = load_exercise(3, course)
     for text, known in ((entry(points), False), (entry("39"), True)):
         written(course / ".botschool" / "last", {"ex03.json": text.encode()})
-        assert bool(recall(course, exercise)) == known
+        assert bool(recall(course, exercise)[1]) == known
 
 
 def test_results_of_many_commands_at_once_are_all_kept(course):

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from botschool.grading.classes.sheets import Sheet as Handed
-from botschool.grading.classes.sheets import doubtful, sheets_section
+from botschool.grading.classes.similar import Sheet as Handed
+from botschool.grading.classes.similar import doubtful, sheets_section
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.trust import trust
 from botschool.labs.check import Check

@@ -99,7 +99,7 @@ def _found(exercise: Exercise, submission: str | None, tasks: list[Task]) -> tup
         file = submission_file(number, None)
         exercise.require_some(tasks)
         return Watched(file, file, [], file.parent), ""
-    from botschool.grading.classes.finding import find_one
+    from botschool.grading.classes.choice import find_one
 
     place = submission_place(submission, root)
     one = find_one(place, exercise, root, Path(tempfile.mkdtemp(prefix="botschool-")))
@@ -291,6 +291,7 @@ def start_command(what: str, notebook: bool, opens: bool = True) -> None:
     notebook: whether to open it as a notebook, until Ctrl-C. opens: whether to open its page.
     """
     from botschool.grading.copies.starting import install, open_notebook, start
+    from botschool.grading.report.showing import lead_to_page
 
     number, root = _named(what)[0], course_root()
     exercise = load_exercise(number, root)
@@ -301,7 +302,7 @@ def start_command(what: str, notebook: bool, opens: bool = True) -> None:
         console.print(f"  {does:<11}{os.path.relpath(path)}", markup=False)
     if made:
         console.print("  (it was missing; botschool has made it)")
-    _lead_to_page(number, root, console, opens and not notebook)
+    lead_to_page(number, root, console, opens and not notebook)
     console.print(f"  {'Grade':<11}botschool grade {number}, or botschool watch {number}")
     console.print(f"  {'A hint':<11}botschool hint {number}.1")
     console.print(f"  {'A notebook':<11}botschool start {number} --notebook opens your file as one")
@@ -309,24 +310,6 @@ def start_command(what: str, notebook: bool, opens: bool = True) -> None:
     exercise.require_some(exercise.tasks)
     if notebook:
         open_notebook(number, file, root)
-
-
-def _lead_to_page(number: int, root: Path, console: Console, opens: bool) -> None:
-    """Print where the living page of an exercise is, and open it."""
-    from botschool.grading.copies.release import MANIFEST
-    from botschool.grading.copies.starting import living_page
-    from botschool.grading.report.showing import open_page
-
-    try:
-        page = living_page(number, root)
-    except BotschoolError as error:
-        copy = "This copy has none; whoever made it can add it."
-        why = copy if (root / MANIFEST).is_file() else error
-        console.print(f"  {'See':<11}the text as a page with figures: {why}", markup=False)
-        return
-    if page:
-        note = " (opened in your browser)" if opens and open_page(page.resolve()) else ""
-        console.print(f"  {'See':<11}{os.path.relpath(page)}{note}", markup=False)
 
 
 def reset_command(what: str) -> None:
@@ -350,6 +333,7 @@ def show_command(what: str, submission: str | None, opens: bool) -> int:
     """
     from botschool.grading.report.progress import answers
     from botschool.grading.report.showing import (
+        lead_to_page,
         open_page,
         show_done,
         show_one,
@@ -377,7 +361,7 @@ def show_command(what: str, submission: str | None, opens: bool) -> int:
             _warn_of_unconfined(found.shown)
         page = show_whole(exercise, file, root)
     if not task:
-        _lead_to_page(number, root, Console(highlight=False, soft_wrap=True), False)
+        lead_to_page(number, root, Console(highlight=False, soft_wrap=True), False)
     if page:
         opened = opens and open_page(page)
         where = "the picture" if task else "all on one page"

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import glob
-import hashlib
-import json
 import os
 import re
 import sys
@@ -13,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from botschool.errors import BotschoolError
-from botschool.grading.copies.skeleton import BEGIN
+from botschool.grading.copies.skeleton import BEGIN, write_unedited
 from botschool.grading.declare.exercise import (
     Exercise,
     course_root,
@@ -21,9 +19,10 @@ from botschool.grading.declare.exercise import (
     folder_of,
     load_exercise,
 )
+from botschool.grading.notebook import marks
 from botschool.grading.packed import pack
 from botschool.grading.run.confined import close_class
-from botschool.output import written_whole
+from botschool.output import save_bytes
 
 CONFIG = "nbgrader_config.py"
 GENERATED = ".generated.json"
@@ -78,28 +77,18 @@ def make_course(root: Path, folder: Path) -> list[Path]:
         raise BotschoolError(
             f"{root} holds no solutions to make notebooks of: run this in the repository."
         )
-    digests = _read_digests(folder / GENERATED)
-    edited = []
+    texts = {}
     for number in numbers:
         exercise = load_exercise(number, root)
         (solution,) = _solutions(root, number)
-        source = folder / "source" / f"ex{number:02d}"
-        text = nbformat.writes(notebook(solution.read_text(encoding="utf-8"), exercise)) + "\n"
-        texts = {f"{solution.stem}.ipynb": text} | _beside(folder_of(number, root), exercise)
-        for inner, text in texts.items():
-            target = source / inner
-            name = target.relative_to(folder).as_posix()
-            if target.exists():
-                present = target.read_text(encoding="utf-8")
-                if present != text and _digest(present) != digests.get(name):
-                    edited.append(target)
-                    continue
-            _write(target, text)
-            digests[name] = _digest(text)
-    _write(folder / GENERATED, json.dumps(digests, indent=1, sort_keys=True) + "\n")
+        made = nbformat.writes(notebook(solution.read_text(encoding="utf-8"), exercise)) + "\n"
+        own = {f"{solution.stem}.ipynb": made} | _beside(folder_of(number, root), exercise)
+        texts |= {f"source/ex{number:02d}/{inner}": text for inner, text in own.items()}
+    edited = write_unedited(folder, texts, folder / GENERATED)
     if not (folder / CONFIG).exists():
         course = os.path.relpath(root.resolve(), folder.resolve())
-        _write(folder / CONFIG, _CONFIG_TEXT.format(course=f'here / "{course}"'))
+        text = _CONFIG_TEXT.format(course=f'here / "{course}"')
+        save_bytes(folder / CONFIG, text.encode())
     return edited
 
 
@@ -179,7 +168,7 @@ def notebook(solution: str, exercise: Exercise) -> Any:
             cell = new_code_cell(given.source, id=_slug(given.source, taken))
         else:
             name = _unused("task-" + "-".join(task.replace(".", "-") for task in tasks), taken)
-            cell = new_code_cell(given.source, id=name, metadata=_marks(name))
+            cell = new_code_cell(given.source, id=name, metadata=marks(name))
         cells.append(cell)
         if len(cells) == 1:
             cells.append(new_markdown_cell(_HOW_TO, id=_unused("how-to", taken)))
@@ -199,26 +188,12 @@ def notebook(solution: str, exercise: Exercise) -> Any:
             from botschool.grading.notebook import grade_cell
 
             grade_cell("{task.id}")""")
-        test = new_code_cell(text, id=name, metadata=_marks(name, task.max_points))
+        test = new_code_cell(text, id=name, metadata=marks(name, task.max_points))
         after.setdefault(place, []).append(test)
     ordered = [each for at, cell in enumerate(cells, 1) for each in (cell, *after.get(at, []))]
     kernel = {"display_name": "Python 3", "language": "python", "name": "python3"}
     metadata = {"kernelspec": kernel, "language_info": {"name": "python"}}
     return new_notebook(cells=ordered, metadata=metadata)
-
-
-def _marks(name: str, points: int | None = None) -> dict[str, Any]:
-    """Return nbgrader's metadata (schema 3) of an answer cell, or of a test cell with points."""
-    test = points is not None
-    marks = {
-        "grade": test,
-        "grade_id": name,
-        "locked": test,
-        "schema_version": 3,
-        "solution": not test,
-        "task": False,
-    }
-    return {"nbgrader": marks | ({"points": points} if test else {})}
 
 
 def _slug(text: str, taken: set[str]) -> str:
@@ -251,24 +226,3 @@ def _solutions(root: Path, number: int) -> list[Path]:
     folder = root / "solutions" / folder_of(number, root).name
     path = folder / load_exercise(number, root).file
     return [path] if path.is_file() else []
-
-
-def _read_digests(path: Path) -> dict[str, str]:
-    try:
-        return json.loads(path.read_text())
-    except FileNotFoundError:
-        return {}
-    except ValueError:
-        raise BotschoolError(
-            f"{path} is damaged: remove it, then run make nbgrader again."
-        ) from None
-
-
-def _write(path: Path, text: str) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with written_whole(path) as temporary:
-        temporary.write_text(text, encoding="utf-8", newline="\n")
-
-
-def _digest(text: str) -> str:
-    return hashlib.sha256(text.encode()).hexdigest()

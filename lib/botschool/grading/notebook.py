@@ -8,6 +8,7 @@ import os
 import re
 import warnings
 from pathlib import Path
+from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
@@ -37,6 +38,20 @@ def report(result: TaskResult, banner: str = "") -> str:
         cut = " [...]" if len(printed) > MAX_PRINTED else ""
         lines += ["Printed by your code:", printed[:MAX_PRINTED] + cut]
     return "\n".join(lines)
+
+
+def marks(name: str, points: float | None = None) -> dict[str, Any]:
+    """Return nbgrader's metadata (schema 3) of an answer cell, or of a test cell with points."""
+    test = points is not None
+    marks = {
+        "grade": test,
+        "grade_id": name,
+        "locked": test,
+        "schema_version": 3,
+        "solution": not test,
+        "task": False,
+    }
+    return {"nbgrader": marks | ({"points": points} if test else {})}
 
 
 class NotGraded(BotschoolError):

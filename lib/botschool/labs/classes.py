@@ -14,11 +14,11 @@ from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.classes.batch import serve
-from botschool.grading.classes.choice import Choice, Wanted, listed
+from botschool.grading.classes.candidate import Choice
+from botschool.grading.classes.choice import Wanted
 from botschool.grading.classes.collect import Laboratory
 from botschool.grading.classes.export import one_person
-from botschool.grading.classes.files import File, Handed
-from botschool.grading.classes.finding import numbered_folders
+from botschool.grading.classes.files import File, Handed, listed, numbered_folders
 from botschool.grading.declare.exercise import Exercise, Number
 from botschool.grading.declare.secret import DEFAULT, VARIABLE
 from botschool.labs.check import Check, Checked, Part

@@ -35,7 +35,7 @@ from botschool.grading.declare.exercise import (
 )
 from botschool.grading.declare.mistakes import case_file
 from botschool.grading.declare.secret import DEFAULT, VARIABLE
-from botschool.grading.judge.submission import SYNTAX, Result, grade
+from botschool.grading.judge.submission import SYNTAX, Result, TaskResult, grade
 from botschool.grading.run.confined import MachineFault, Unread, content_digest, machine_fault
 from botschool.grading.run.temporary import temporary_folder
 from botschool.output import save_bytes
@@ -240,17 +240,9 @@ class Grades:
         """
         exercise = self.exercise(number)
         asked = [task for task in exercise.tasks if not tasks or task.id in tasks]
-        records = [
-            {"id": t.id, "title": t.title, "points": 0, "max_points": t.max_points, "message": "",
-             "printed": ""}
-            for t in asked
-        ]  # fmt: skip
-        maximum = sum(task.max_points for task in asked)
-        return {
-            "exercise": number, "title": exercise.title, "points": 0, "max_points": maximum,
-            "tasks": records, "pictures": [], "missing": [], "problem": problem,
-            "banner": "", "graded": graded,
-        }  # fmt: skip
+        results = [TaskResult(task.id, task.title, 0, task.max_points, "") for task in asked]
+        told = to_record(Result(exercise.number, exercise.title, results))
+        return told | {"exercise": number, "problem": problem, "graded": graded}
 
     def _key(self, job: Job) -> str:
         digest = content_digest(job.file)
@@ -263,6 +255,11 @@ class Grades:
 def _digest(content: bytes) -> bytes:
     """Return the first line of a file in the cache, by which a damaged one is graded again."""
     return hashlib.sha256(content).hexdigest().encode()
+
+
+def remarks(result: dict[str, Any]) -> list[str]:
+    """Return the sentences on a whole result: notes, why there are no points, what is broken."""
+    return [*result["notes"], *filter(None, [result["problem"], result["banner"]])]
 
 
 def to_record(result: Result) -> dict[str, Any]:

@@ -1,18 +1,22 @@
-"""Choose the file of an exercise among all files that a person handed in."""
+"""Find the file of each exercise among what each person handed in."""
 
 from __future__ import annotations
 
 import re
 from codecs import BOM_UTF8
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from botschool.grading.classes.candidate import Candidate, Sought, squashed
-from botschool.grading.classes.files import File, Handed, listed
-from botschool.grading.classes.kinds import kind_of, may_hold_code
-from botschool.grading.classes.settle import Choice, settle
+from botschool.errors import BotschoolError
+from botschool.grading.classes.candidate import Candidate, Choice, Sought, settle, squashed
+from botschool.grading.classes.export import Person, one_person
+from botschool.grading.classes.files import TIMESTAMP, File, Handed, listed, numbered_folders
 from botschool.grading.classes.texts import MAX_NOTEBOOK, MAX_TEXT
+from botschool.grading.classes.unpack import kind_of, may_hold_code
+from botschool.grading.classes.wall import Broken, broken, walled
 from botschool.grading.declare.checks import plain
+from botschool.grading.declare.exercise import Exercise, Number
+from botschool.paths import for_make
 
 MAX_NAMED = 5
 """Files that a sentence names, where the exercise's is missing."""
@@ -45,7 +49,7 @@ class Wanted(Sought):
         choice = Choice(origin=best.file, changed=best.differs)
         choice.used |= {each.file for each in ranked}
         choice.notes = [*_choosing(best, others, self), *_looks(best, self)]
-        settle(choice, best, handed, self, new_folder)
+        settle(choice, best, handed, new_folder)
         return choice
 
 
@@ -141,3 +145,86 @@ def _what(file: File) -> str:
     kind = kind_of(content, file.name)
     size = f"more than {MAX_TEXT // 2**20} MB" if len(content) > MAX_TEXT else ""
     return f" ({kind or size})" if kind or size else ""
+
+
+def find_submissions(
+    people: Iterable[Person], wanted: list[Wanted], root: Path, new_folder: Callable[[], Path]
+) -> list[Person]:
+    """Choose the file of each exercise among what each person handed in.
+
+    Each person's files are read behind a wall (`walled`): what cannot be read costs only its owner.
+    """
+    found = list(people)
+    for one in found:
+        try:
+            one.choices, one.notes = walled(_of_one, one, wanted, root, new_folder())
+        except Broken as error:
+            one.choices = {each.number: _unreadable(error) for each in wanted}
+    return found
+
+
+def _of_one(
+    one: Person, wanted: list[Wanted], root: Path, folder: Path
+) -> tuple[dict[Number, Choice], list[str]]:
+    """Return a person's choices and notes; folder: for what is unpacked and copied."""
+    if one.problem:
+        return {each.number: Choice(problem=one.problem) for each in wanted}, []
+    one.new_folder = new_folder = numbered_folders(folder)
+    handed, newest_first = one.handed, one.platform in ("canvas", "attempt")
+    for each in wanted:
+        try:
+            one.choices[each.number] = each.choose(handed, new_folder, newest_first)
+        except Exception as error:
+            one.choices[each.number] = _unreadable(broken(error))
+    return one.choices, [*handed.notes, *_left(one, root)]
+
+
+def _unreadable(error: Broken) -> Choice:
+    problem = f"What was handed in cannot be read ({plain(str(error))}): hand in the file alone."
+    return Choice(problem=problem, unread=error.ours)
+
+
+def _left(one: Person, root: Path) -> list[str]:
+    """Return a sentence on unused files, except those that the course gave out."""
+    used = set().union(*(choice.used for choice in one.choices.values()))
+    courses = {found[1] for file in one.handed.files if (found := _COURSE.match(file.shown))}
+    tops, copies = {"", *courses}, bool(courses)
+    names = []
+    for file in one.handed.files:
+        inner = [file.shown[len(top) :] for top in tops if file.shown.startswith(top)]
+        given = any(_is_given(name, root, copies) for name in inner)
+        if not given and file not in used and file.name != TIMESTAMP:
+            names.append(file.shown)
+    if not one.files and len(one.handed.files) <= MAX_NAMED:
+        names = []  # the problem of each exercise names them
+    names += [f"{link} (a link)" for link in one.handed.links]
+    return [f"Not used: {listed(names)}."] if names else []
+
+
+def _is_given(name: str, root: Path, copies: bool) -> bool:
+    """Return whether copies of the course have a file of this path."""
+    if name.startswith("solutions/") or not (copies or re.match(r"ex\d\d_", name)):
+        return False  # no copy has the solutions
+    return (root / name).is_file() or (root / "exercises" / name).is_file()
+
+
+def find_in(place: Path, exercise: Exercise, root: Path, folder: Path) -> Person:
+    """Find an exercise in one person's folder, zip file or file, as grade-all finds it.
+
+    folder: a temporary one.
+    """
+    new_folder = numbered_folders(folder)
+    wanted = Wanted(exercise.number, exercise.file, root)
+    return find_submissions([one_person(place, new_folder)], [wanted], root, new_folder)[0]
+
+
+def find_one(place: Path, exercise: Exercise, root: Path, folder: Path) -> Person:
+    """Find an exercise as `find_in`. Raises BotschoolError if there is nothing to grade."""
+    one = find_in(place, exercise, root, folder)
+    choice = one.choices[exercise.number]
+    if choice.file is None:
+        raise BotschoolError(
+            f"{place}: {choice.problem} Name another folder with --submission "
+            f"FOLDER{for_make(root)}."
+        )
+    return one

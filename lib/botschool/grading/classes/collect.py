@@ -5,27 +5,24 @@ from __future__ import annotations
 import hashlib
 import os
 import re
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from botschool.errors import BotschoolError
 from botschool.grading.classes.batch import Grades, Job
-from botschool.grading.classes.choice import Wanted
-from botschool.grading.classes.export import read_export
-from botschool.grading.classes.files import listed
-from botschool.grading.classes.finding import Submission, find_submissions, numbered_folders
-from botschool.grading.classes.members import Row, Settings
+from botschool.grading.classes.choice import Wanted, find_submissions
+from botschool.grading.classes.export import Export, read_export
+from botschool.grading.classes.files import listed, numbered_folders
 from botschool.grading.classes.outputs import OWN, WORDS, write_outputs
-from botschool.grading.classes.people import Person
 from botschool.grading.classes.policy import FILE, add_table
-from botschool.grading.classes.register import Register
-from botschool.grading.classes.tables import made_table
+from botschool.grading.classes.register import Register, Row
+from botschool.grading.classes.rules import Policy
+from botschool.grading.classes.tables import check_own, made_table
 from botschool.grading.classes.texts import code_of_notebook
-from botschool.grading.declare.exercise import Exercise, Number, called
+from botschool.grading.declare.exercise import Exercise, Number, called, exercise_numbers
 from botschool.grading.report.feedback import page
 from botschool.grading.report.paper import GENERATOR
 from botschool.grading.run.temporary import temporary_folder
@@ -71,120 +68,99 @@ def grade_all(
     secret: str | None = None,
     start: Callable[[int], None] = lambda count: None,
     report: Callable[[], None] = lambda: None,
-    settings: Settings | None = None,
+    policy: Policy | None = None,
     laboratories: Mapping[Number, Laboratory] = MappingProxyType({}),
     only_handed_in: bool = False,
-    known: Collection[Number] = (),
 ) -> Class:
     """Grade every submission and write grades.csv and feedback/STUDENT.html into `output`.
 
     download: a folder or a zip file, as in export.read_export. secret: of the grading seeds; None
     as in batch.Grades. start(count) is called with the number of files, report() after each of
-    them.
-    laboratories: those of `asked`. only_handed_in: whether to leave out laboratories that nobody
-    handed in. known: all exercises and laboratories, () if unknown. Raises BotschoolError before it
-    starts, if this machine lacks what a submitted exercise needs.
+    them. laboratories: all that there are. only_handed_in: whether to leave out laboratories that
+    nobody handed in. Raises BotschoolError before it starts, if this machine lacks what a submitted
+    exercise needs.
     """
-    settings = settings or Settings()
+    policy = policy or Policy()
     with temporary_folder() as temporary:
         exercises = {number: each.exercise for number, each in laboratories.items()}
         grades = Grades(root, fresh, secret, exercises)
         new_folder = numbered_folders(temporary / "files")
-        wanted: list[Wanted] = [
+        wanted = [
             Wanted(number, grades.exercise(number).file, root)
-            for number in asked
             if isinstance(number, int)
+            else laboratories[number].wanted
+            for number in asked
         ]
-        wanted += [each.wanted for each in laboratories.values()]
         export = read_export(download, wanted, new_folder)
-        submissions = find_submissions(export.people, wanted, root, new_folder)
+        people = find_submissions(export.people, wanted, root, new_folder)
+        handed_in = {number for one in people for number in one.files}
         if only_handed_in:
-            for number in [
-                n for n in laboratories if not any(n in one.files for one in submissions)
-            ]:
-                asked = {key: tasks for key, tasks in asked.items() if key != number}
-                for one in submissions:
-                    del one.choices[number]
-        for number in asked:
-            if any(number in one.files for one in submissions):
-                exercise = grades.exercise(number)
-                exercise.require([*map(exercise.find, asked[number])] or exercise.tasks)
-        rules = settings.policy.digest(asked)
-        add_table(settings.policy, output / WORDS)
-        register = Register(submissions, settings)
+            asked = {n: asked[n] for n in asked if isinstance(n, int) or n in handed_in}
+            for one in people:
+                one.choices = {number: one.choices[number] for number in asked}
+        for number in [each for each in asked if each in handed_in]:
+            exercise = grades.exercise(number)
+            exercise.require([*map(exercise.find, asked[number])] or exercise.tasks)
+        rules = policy.digest(asked)
+        add_table(policy, output / WORDS)
+        register = Register(people, policy)
         skeletons = {each.number: each.skeleton for each in wanted if each.skeleton}
-        rows = _grade(register, output, asked, grades, skeletons, workers, start, report)
-        tables = {id(each): each for each in (settings.roster, settings.gradebook) if each}
-        notes = [*export.notes, *(note for each in tables.values() for note in each.notes)]
-        if FILE in export.nobodys or (download / FILE).is_file():
-            notes.append(
-                f"{FILE} inside the download has no effect, since students could have written it: "
-                "put it beside the download, or name it with --class."
-            )
-        written = write_outputs(output, rows, register, asked, skeletons, rules)
+        names = _page_names(register.rows)
+        _check_own(output, names)
+        _grade(register, asked, grades, skeletons, workers, start, report)
+        (output / PAGES).mkdir(parents=True, exist_ok=True)
+        for row, name in zip(register.rows, names, strict=True):
+            if not row.is_missing:
+                row.page = name
+                text = page(row.name, row.results, [*row.notes, *row.said])
+                save_bytes(output / PAGES / name, text.encode("utf-8", "replace"))
+        save_bytes(output / TABLE, _table(register.rows, register))
+        notes = [*export.notes, *_notes(policy, export, download)]
+        written = write_outputs(output, register.rows, register, asked, skeletons, rules)
+        known = [*exercise_numbers(root), *laboratories]
         notes += [*register.notes, *register.without_effect([*asked], known)]
         nobodys = [name for name in export.nobodys if name != FILE]
-    return Class(rows, register, nobodys, notes, written)
+    return Class(register.rows, register, nobodys, notes, written)
+
+
+def _notes(policy: Policy, export: Export, download: Path) -> list[str]:
+    """Return sentences on the tables and settings of the class."""
+    tables = {id(each): each for each in (policy.people, policy.gradebook) if each}
+    notes = [note for each in tables.values() for note in each.notes]
+    if FILE in export.nobodys or (download / FILE).is_file():
+        notes.append(
+            f"{FILE} inside the download has no effect, since students could have written it: "
+            "put it beside the download, or name it with --class."
+        )
+    return notes
 
 
 def _grade(
     register: Register,
-    output: Path,
     asked: Asked,
     grades: Grades,
     skeletons: Mapping[Number, str],
     workers: int,
     start: Callable[[int], None],
     report: Callable[[], None],
-) -> list[Row]:
-    rows = register.rows
-    names = page_names(
-        [row.name for row in rows],
-        [f"{one.person.platform} {one.person.folder}" for one in map(_first, rows)],
-    )
-    _check_own(output, names)
-    places: dict[Job, list[tuple[int, Number]]] = {}
-    waiting: list[set[tuple[int, Number]]] = []
-    for row in rows:
-        needed = {}
-        for number in asked:
-            for _, part in row.handed(number):
-                needed[id(part), number] = Job(number, part.files[number].absolute(), asked[number])
-        for key, job in needed.items():
-            places.setdefault(job, []).append(key)
-        waiting.append(set(needed))
-    start(len(places))
-    done: dict[tuple[int, Number], dict] = {}
-    (output / PAGES).mkdir(parents=True, exist_ok=True)
-
-    def write(row: Row, name: str) -> None:
-        for number in asked:
-            nothing = partial(grades.nothing, number, tasks=asked[number])
+) -> None:
+    """Give each row its results and its total."""
+    jobs = {
+        (number, part.files[number]): Job(number, part.files[number].absolute(), tasks)
+        for row in register.rows
+        for number, tasks in asked.items()
+        for _, part in row.handed(number)
+    }
+    start(len(set(jobs.values())))
+    found = grades.of(jobs.values(), workers, lambda job, result: report())
+    done = {place: found[job] for place, job in jobs.items()}
+    for row in register.rows:
+        for number, tasks in asked.items():
+            nothing = partial(grades.nothing, number, tasks=tasks)
             result = register.result(row, number, done, nothing)
             code = _code(result["file"]) if number in skeletons and result.get("file") else ""
             row.results.append(result | {"code": code, "skeleton": skeletons.get(number, "")})
         register.finish(row)
-        if not row.is_missing:
-            row.page = name
-            text = page(row.name, row.results, [*row.notes, *row.said])
-            save_bytes(output / PAGES / name, text.encode("utf-8", "replace"))
-
-    def keep(job: Job, result: dict[str, Any]) -> None:
-        new = set(places[job])
-        done.update(dict.fromkeys(new, result))
-        for row, name, keys in zip(rows, names, waiting, strict=True):
-            if keys & new:
-                keys -= new
-                if not keys:
-                    write(row, name)
-        report()
-
-    for row, name, keys in zip(rows, names, waiting, strict=True):
-        if not keys:
-            write(row, name)
-    grades.of(places, workers, keep)
-    save_bytes(output / TABLE, _table(rows, register))
-    return rows
 
 
 def _code(file: Path) -> str:
@@ -196,9 +172,14 @@ def _code(file: Path) -> str:
     return code_of_notebook(text) if file.suffix == ".ipynb" else text
 
 
-def _first(row: Row) -> Submission:
-    """Return a person's submission, or an empty one, for a key of the page."""
-    return row.parts[0] if row.parts else Submission(Person(row.name, row.about.key))
+def _page_names(rows: list[Row]) -> list[str]:
+    """Return the name of each row's page; the names of platforms distinguish people of one name."""
+    firsts = [row.parts[0] if row.parts else None for row in rows]
+    keys = [
+        f"{first.platform} {first.folder}" if first else f" {row.about.key}"
+        for row, first in zip(rows, firsts, strict=True)
+    ]
+    return page_names([row.name for row in rows], keys)
 
 
 def page_names(folders: list[str], keys: list[str] | None = None) -> list[str]:
@@ -254,16 +235,4 @@ def _check_own(output: Path, names: list[str]) -> None:
     if not (output / TABLE).exists():  # then the tables beside it are not ours either
         own |= dict.fromkeys(OWN, GENERATOR)
     for name, sign in own.items():
-        path = output / name
-        try:
-            with path.open(encoding="utf-8-sig", errors="replace") as file:
-                head = file.read(1000)
-        except FileNotFoundError:
-            continue
-        except OSError:
-            head = ""
-        if sign not in head or path.is_symlink():
-            raise BotschoolError(
-                f"{path} exists and was not made by grade-all: move it away, or choose "
-                "another folder with -o."
-            )
+        check_own(output / name, sign, "grade-all")

@@ -10,14 +10,12 @@ from types import MappingProxyType
 from rich.console import Console
 
 from botschool.errors import BotschoolError, BotschoolErrors
-from botschool.grading.classes.collect import PAGES, TABLE, Class, Laboratory, grade_all
+from botschool.grading.classes.collect import PAGES, TABLE, Asked, Class, Laboratory, grade_all
 from botschool.grading.classes.exporting import export
 from botschool.grading.classes.files import listed
-from botschool.grading.classes.identity import read_answers
-from botschool.grading.classes.members import Settings
+from botschool.grading.classes.identity import read_answers, read_roster
 from botschool.grading.classes.outputs import filled
 from botschool.grading.classes.policy import FILE, read_policy
-from botschool.grading.classes.roster import read_roster
 from botschool.grading.classes.rules import Policy
 from botschool.grading.classes.statistics import by_task, hardest
 from botschool.grading.classes.term import TABLE as TERM
@@ -71,10 +69,10 @@ def grade_all_command(
     else handed in.
     """
     root = course_root()
-    asked, labs = _asked(exercise, root, laboratories)
+    asked = _asked(exercise, root, laboratories)
     console = Console(highlight=False)
-    known = _settings(folder.absolute().parent, roster, gradebook, column, settings)
-    os.environ[SYNTAX] = known.policy.syntax
+    policy = _policy(folder.absolute().parent, roster, gradebook, column, settings)
+    os.environ[SYNTAX] = policy.syntax
     secret, said = secret_for_others(root)
     close_class(folder, output)
     with counting("Grading", console) as (start, step):
@@ -88,10 +86,9 @@ def grade_all_command(
             secret,
             start,
             step,
-            known,
-            labs,
+            policy,
+            laboratories,
             exercise == "all",
-            [*selected("all", root), *laboratories],
         )
     good = say_class(console, found)
     console.print(
@@ -105,35 +102,31 @@ def grade_all_command(
     return good
 
 
-def _asked(
-    text: str, root: Path, laboratories: Mapping[Number, Laboratory]
-) -> tuple[dict[Number, tuple[str, ...]], dict[Number, Laboratory]]:
-    """Return what to grade, and the laboratories among it. Raises BotschoolError."""
+def _asked(text: str, root: Path, laboratories: Mapping[Number, Laboratory]) -> Asked:
+    """Return what to grade. Raises BotschoolError."""
     if text.strip() == "all":
-        every: dict[Number, tuple[str, ...]] = dict(selected(text, root).items())
-        return every | dict.fromkeys(laboratories, ()), dict(laboratories)
+        return dict(selected(text, root)) | dict.fromkeys(laboratories, ())
     parts = [part.strip().lower() for part in text.split(",")]
-    found: dict[Number, Laboratory] = {}
-    for name in [part for part in parts if part.startswith("lab")]:
+    labs = [part for part in parts if part.startswith("lab")]
+    exercises = ",".join(part for part in parts if part not in labs)
+    asked: Asked = dict(selected(exercises, root)) if exercises or not labs else {}
+    for name in labs:
         key = f"lab{name[3:].lstrip('0')}"
         if key not in laboratories:
             raise BotschoolError(
                 f"'{name[:30]}' is not a laboratory: there are {', '.join(map(str, laboratories))}."
             )
-        found[key] = laboratories[key]
-    exercises = ",".join(part for part in parts if not part.startswith("lab"))
-    asked: dict[Number, tuple[str, ...]] = {}
-    asked |= selected(exercises, root).items() if exercises else {}
-    return asked | dict.fromkeys(found, ()), found
+        asked[key] = ()
+    return asked
 
 
-def _settings(
+def _policy(
     folder: Path,
     roster: Path | None,
     gradebook: Path | None,
     column: str,
     settings: Path | None,
-) -> Settings:
+) -> Policy:
     """Return the class's settings; the function finds class.yaml in a folder by itself."""
     beside = folder / FILE
     if settings is None and beside.is_file() and not beside.is_symlink():
@@ -142,13 +135,15 @@ def _settings(
     policy.folder = settings.parent if settings else folder
     policy.answers = read_answers(policy.folder)
     roster = roster or policy.roster
-    book = read_roster(gradebook) if gradebook else None
-    if book and book.kind == "plain":
+    policy.people = read_roster(roster) if roster else None
+    policy.gradebook = read_roster(gradebook) if gradebook else None
+    policy.column = column
+    if policy.gradebook and policy.gradebook.kind == "plain":
         raise BotschoolError(
             f"{gradebook} is neither Moodle's grading worksheet nor Canvas's gradebook: name it "
             "with --roster."
         )
-    return Settings(policy, read_roster(roster) if roster else None, book, column)
+    return policy
 
 
 def gradebook_command(
@@ -172,16 +167,11 @@ def gradebook_command(
         )
     if settings is None and (name := files.pop()):
         settings = Path(name)
-    known = _settings(output, roster, gradebook, column, settings)
-    if known.policy.errors:
-        raise BotschoolErrors(known.policy.errors)
-    term = Term(read, known)
-    points = {
-        student: (row.total, " ".join(row.said))
-        for student, row in term.book_rows()
-        if row.total is not None
-    }
-    written = write_term(term, output, filled(output, known, points, term.maximum))
+    policy = _policy(output, roster, gradebook, column, settings)
+    if policy.errors:
+        raise BotschoolErrors(policy.errors)
+    term = Term(read, policy)
+    written = write_term(term, output, filled(output, term, lambda row: " ".join(row.said)))
     console = Console(highlight=False)
     good = say_term(console, term, read)
     console.print(f"Table: {output / TERM}", markup=False, soft_wrap=True)
@@ -194,14 +184,11 @@ def say_class(console: Console, found: Class) -> bool:
     """Print a class's results in a few lines; True if nobody is missing, unknown or ungraded."""
     register, rows = found.register, found.rows
     handed_in = [row for row in rows if row.page]
-    totals = [row.total for row in rows if row.total is not None]
-    maximum = register.maximum()
-    average = f"{sum(totals) / len(totals):.1f} of {maximum} points on average" if totals else ""
     ungraded = sum(row.total is None for row in handed_in)
     left = f"{ungraded} not graded and not counted" if ungraded else ""
     missing = f"{len(register.missing)} handed in nothing" if register.missing else ""
     unknown = f"{len(register.unknown)} not on the roster" if register.unknown else ""
-    parts = [f"{len(handed_in)} submissions", average, left, missing, unknown]
+    parts = [f"{len(handed_in)} submissions", register.average(), left, missing, unknown]
     lines = [", ".join(filter(None, parts)) + "."]
     lines += [*register.lacking(), *found.notes]
     if found.nobodys:

@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import os
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from botschool.grading.classes.kinds import SIGN, is_archive, kind_of
 from botschool.grading.classes.unpack import (
     ARCHIVES,
     MAX_LEVELS,
     PACKED,
+    SIGN,
+    SUBMISSION,
+    Room,
     Unpackable,
-    room_of_submission,
+    is_archive,
+    kind_of,
     unpack,
 )
 from botschool.grading.declare.checks import plain
@@ -115,7 +119,7 @@ class Collector:
     def __init__(self, new_folder: Callable[[], Path]) -> None:
         """Start; new_folder: makes an empty temporary folder for a zip file's content."""
         self._new_folder = new_folder
-        self._room = room_of_submission()
+        self._room = Room(*SUBMISSION)
         self.handed = Handed()
 
     def add_folder(
@@ -217,3 +221,15 @@ def _head(file: File) -> bytes:
         return file.read(SIGN)
     except OSError:
         return b""
+
+
+def numbered_folders(base: Path) -> Callable[[], Path]:
+    """Return a function that makes a new folder in `base` each time."""
+    numbers = itertools.count(1)
+
+    def new_folder() -> Path:
+        folder = base / str(next(numbers))
+        folder.mkdir(parents=True)
+        return folder
+
+    return new_folder

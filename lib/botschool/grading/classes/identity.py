@@ -1,4 +1,4 @@
-"""Recognise people in several tables and downloads, and ask the instructor where it is doubtful.
+"""Read class lists, recognise people in tables and downloads, and ask who doubtful ones are.
 
 docs/specification.md, "A term".
 """
@@ -13,7 +13,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.tables import made_table, read_table
+from botschool.grading.classes.export import Person
+from botschool.grading.classes.tables import Table, made_table, read_table
 from botschool.grading.declare.checks import plain
 from botschool.output import save_bytes
 
@@ -88,6 +89,11 @@ class Student:
         """Return the words of the name, as each row has it."""
         return {words(each.name) for each in (self, *self.again)}
 
+    def turned(self) -> list[str]:
+        """Return the words of the name in one, from each of them on: lastnamefirst."""
+        parts = letters(self.name.replace(",", " ")).split()
+        return ["".join(parts[at:] + parts[:at]) for at in range(len(parts))]
+
     def differs(self, other: Student) -> bool:
         """Return whether the ids of two students of one name say that they are two people."""
         both = [(getattr(self, key), getattr(other, key)) for key in ("id", "canvas")]
@@ -158,11 +164,11 @@ class Known:
 
     def find(self, text: str) -> int | None:
         """Return the number of the only person with this id, mail, user name, number or name."""
-        key, name = text.strip().casefold(), words(text)
-        people = list(enumerate(self.people))
-        found = [at for at, each in people if key in set(each.keys())]
-        found = found or [at for at, each in people if name in each.names()]
-        return found[0] if len(found) == 1 else None
+        for place in (("word", text.strip().casefold()), ("name", words(text))):
+            found = self._places.get(place, ())
+            if place[1] and len(found) == 1:
+                return found[0]
+        return None
 
     def _answered(self, row: Student) -> int | None:
         """Return who a row is as the table says, which may name either of two first."""
@@ -218,7 +224,8 @@ class Known:
             name = known.name if known.is_named or not row.is_named else row.name
             self.people[at] = replace(known, name=name, again=(*known.again, row), **filled)
         self._rows[row] = at
-        for key in keys:
+        words_of = {"word": row.keys(), "name": row.names()}
+        for key in [*keys, *((kind, each) for kind in words_of for each in words_of[kind])]:
             places = self._places.setdefault(key, [])
             places += [at] * (at not in places)
         return at
@@ -292,3 +299,95 @@ def ask(folder: Path, doubts: Sequence[Doubt]) -> list[str]:
 def _shown(student: Student) -> str:
     keys = [key for key in (student.key, student.mail) if key != student.name]
     return " ".join([student.name, *(f"({key})" for key in dict.fromkeys(keys) if key)])
+
+
+@dataclass
+class Roster:
+    """The students of a class, from a table of any platform."""
+
+    table: Table
+    kind: str
+    """moodle (a grading worksheet), canvas (a gradebook) or plain."""
+    known: Known
+    notes: list[str] = field(default_factory=list)
+    """Sentences on students who stand there more than once."""
+
+    @property
+    def students(self) -> list[Student]:
+        return self.known.people
+
+    def find(self, name: str) -> Student | None:
+        """Return the only student whom a word names; None if there is none, or more than one."""
+        at = self.known.find(name)
+        return None if at is None else self.students[at]
+
+    def match(self, person: Person) -> Student | None:
+        """Return the student who handed this in; None if there is none or more than one."""
+        ids, platform = person.ids, person.platform
+        number = ids.get("participant") or ids.get("user")
+        names = [f"{platform} {number}"] if number else []
+        names += [ids.get("email", ""), ids.get("sid", ""), person.student]
+        if platform in ("", "moodle"):
+            # ASSIGNMENT-USER or GROUP-NAME; the longest user name wins, as it may hold hyphens
+            whole = person.student if platform else person.folder
+            parts = re.sub(r"-(main|master)$", "", whole).split("-")
+            names += [whole, *("-".join(parts[at:]) for at in range(1, len(parts)))]
+        if found := next(filter(None, map(self.find, names)), None):
+            return found
+        fitting = set[Student]()
+        if not platform:  # NAME - FILE, TITLE_USER_attempt_TIME_FILE
+            pieces = re.split(r"\s+-\s+|_", person.folder)
+            fitting = {*filter(None, map(self.find, pieces))}
+        if platform == "canvas":  # lastnamefirst
+            squashed = letters(person.student).replace(" ", "")
+            fitting = {each for each in self.students if squashed in each.turned()}
+        return fitting.pop() if len(fitting) == 1 else None
+
+
+def read_roster(path: Path) -> Roster:
+    """Return the class of a CSV file. Raises BotschoolError."""
+    table = read_table(path)
+    get, points_row, kind = table.get, 0, "plain"
+    if table.column("participant") is not None and "Grade" in " ".join(table.head):
+        kind = "moodle"
+    elif table.head[0].strip() == "Student" and table.column("id") is not None:
+        kind = "canvas"
+        points_row = next(
+            (i for i, row in enumerate(table.rows, 1) if "points possible" in row[0].lower()), 0
+        )
+    students = []
+    for index, row in enumerate(table.rows):
+        name = get(row, "name") or f"{get(row, 'first')} {get(row, 'last')}".strip()
+        if kind == "canvas" and (index < points_row or name == "Student, Test"):
+            continue
+        if "," in name:
+            last, _, first = name.partition(",")
+            name = f"{first.strip()} {last.strip()}"
+        digits = re.search(r"\d+", get(row, "participant"))
+        number = get(row, "id")
+        student = Student(
+            name or get(row, "user") or get(row, "mail") or number,
+            get(row, "sisuserid") if kind == "canvas" else number,
+            get(row, "mail"),
+            get(row, "user"),
+            digits[0] if digits else "",
+            number if kind == "canvas" else "",
+            index,
+        )
+        if student.name:
+            students.append(student)
+    if not students:
+        heads = plain(" ".join(", ".join(table.head).split())[:80])
+        raise BotschoolError(
+            f"{path} names no students: it needs a column 'name' (or 'first_name' and "
+            f"'last_name'), 'id' or 'email'; its columns are {heads}."
+        )
+    known = Known()
+    known.add(students, equal=[tuple(table.rows[each.row]) for each in students])
+    notes = [
+        f"{path.name} names {plain(each.name)} {len(each.rows)} times (rows "
+        f"{', '.join(str(row + 2) for row in each.rows)}): taken for one student."
+        for each in known.people
+        if each.again
+    ]
+    return Roster(table, kind, known, notes)

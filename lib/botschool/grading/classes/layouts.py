@@ -8,16 +8,14 @@ import re
 import zipfile
 from collections.abc import Iterable
 from datetime import datetime
+from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from botschool.errors import BotschoolError
+from botschool.grading.classes.candidate import Sought
 from botschool.grading.classes.files import is_junk
 from botschool.grading.classes.times import moment_of
 from botschool.grading.classes.unpack import holds_more
-
-if TYPE_CHECKING:
-    from botschool.grading.classes.choice import Wanted
 
 MOODLE = re.compile(
     r"(?P<name>.+?)_(?P<id>\d+)_assignsubmission_(?P<kind>[a-z]+)(?:_(?P<rest>.*))?", re.DOTALL
@@ -41,18 +39,23 @@ VERSION = re.compile(
 """Names of folders in which one person keeps several versions, or several exercises."""
 TABLES = (".csv", ".yaml", ".yml")
 """Suffixes of a class's tables and settings."""
-MAX_NAMES = 50_000
-"""Names in a zip file that may be a class, beside others."""
+MAX_NAMES, MAX_FOLDERS = 50_000, 200
+"""Names in a zip file, and folders in one, that may be a class's or a person's, beside others."""
 
 
 def visible(folder: Path) -> list[os.DirEntry]:
     """Return the sorted entries of a folder that may be somebody's. Raises BotschoolError."""
     try:
         with os.scandir(folder) as entries:
-            found = [e for e in entries if is_of_platform(e.name) or not is_hidden(e.name)]
+            found = [e for e in entries if recognised(e.name) or not is_hidden(e.name)]
     except OSError as error:
         raise BotschoolError(f"{folder} cannot be read ({error.strerror}).") from None
     return sorted(found, key=lambda entry: entry.name)
+
+
+def without_tables(folder: Path) -> list[os.DirEntry]:
+    """Return the visible entries of a folder that are no tables of the class."""
+    return [entry for entry in visible(folder) if not entry.name.lower().endswith(TABLES)]
 
 
 def entries_of(folder: Path) -> list[os.DirEntry]:
@@ -82,11 +85,6 @@ def recognised(name: str) -> tuple[str, re.Match] | None:
     return min(found, key=lambda each: each[1].end("name"), default=None)
 
 
-def is_of_platform(name: str) -> bool:
-    """Return whether a platform gives such a name to a person's file or folder."""
-    return recognised(name) is not None
-
-
 def is_class(names: Iterable[str]) -> bool:
     """Return whether the names in a folder are those of a platform's class."""
     found = [recognised(name) for name in names if not is_hidden(name)]
@@ -96,7 +94,9 @@ def is_class(names: Iterable[str]) -> bool:
 
 
 def names_in(path: Path) -> list[str]:
-    """Return the names in a zip file; none if it cannot be read, or holds too many."""
+    """Return the names in a zip file, or in a folder and those below; none if it holds too many."""
+    if path.is_dir():
+        return [name for _, _, files in islice(os.walk(path), MAX_FOLDERS) for name in files]
     with contextlib.suppress(Exception):
         if not holds_more(path, MAX_NAMES):
             with zipfile.ZipFile(path) as archive:
@@ -104,8 +104,8 @@ def names_in(path: Path) -> list[str]:
     return []
 
 
-def holds_exercise(path: Path, wanted: list[Wanted]) -> bool:
-    """Return whether a zip file holds an exercise."""
+def holds_exercise(path: Path, wanted: list[Sought]) -> bool:
+    """Return whether a zip file or a folder holds an exercise."""
     stems = [Path(one.file).stem.casefold() for one in wanted]
     return any(stem in name.casefold() for name in names_in(path) for stem in stems)
 

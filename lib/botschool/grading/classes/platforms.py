@@ -21,8 +21,8 @@ from pathlib import Path
 from typing import Any
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.batch import Grades, to_record
-from botschool.grading.classes.finding import find_in
+from botschool.grading.classes.batch import Grades, remarks, to_record
+from botschool.grading.classes.choice import find_in
 from botschool.grading.declare.exercise import (
     STATE,
     course_root,
@@ -68,7 +68,7 @@ def graded(number: int, place: Path, only_changed: bool = False) -> dict[str, An
 
 def gradescope(result: dict[str, Any], seconds: float) -> dict[str, Any]:
     """Return the content of Gradescope's results.json: a test for each task."""
-    said = [*result["notes"], *filter(None, [result["problem"], result["banner"]])]
+    said = remarks(result)
     return {
         "score": result["points"],
         "execution_time": round(seconds),
@@ -139,7 +139,7 @@ def markdown(results: list[dict[str, Any]]) -> str:
             f"{result['points']} of {result['max_points']} points",
             "",
         ]
-        said = [*result["notes"], *filter(None, [result["problem"], result["banner"]])]
+        said = remarks(result)
         lines += [_code("\n".join(said)), ""] if said else []
         if result["problem"]:
             continue

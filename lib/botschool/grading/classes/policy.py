@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 
 from botschool.errors import BotschoolError, BotschoolErrors
 from botschool.grading.classes.identity import words
-from botschool.grading.classes.rules import TOTAL, Adjustment, LateRule, Policy
+from botschool.grading.classes.rules import MOST_POINTS, TOTAL, Adjustment, LateRule, Policy
 from botschool.grading.classes.tables import Table, read_table
 from botschool.grading.classes.texts import is_larger
 from botschool.grading.declare.exercise import Number
@@ -26,7 +26,7 @@ _LATE = re.compile(
     re.IGNORECASE,
 )
 FILE = "class.yaml"
-MOST_VALUES, MOST_POINTS = 100_000, 1e6
+MOST_VALUES = 100_000
 T = TypeVar("T")
 _KEYS = (
     "roster", "due", "late", "extensions", "adjustments", "submitted", "groups", "weights", "total",

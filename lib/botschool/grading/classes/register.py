@@ -1,20 +1,22 @@
-"""Match submissions with the people of the class, and compute each person's points."""
+"""The people of a class, what they handed in, and their points."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
 from datetime import datetime
+from pathlib import Path
 from typing import Any
 
-from botschool.grading.classes.choice import Choice
+from botschool.errors import BotschoolErrors
+from botschool.grading.classes.candidate import Choice
+from botschool.grading.classes.export import Person
 from botschool.grading.classes.files import File, listed
-from botschool.grading.classes.finding import Submission
-from botschool.grading.classes.identity import Student, letters
-from botschool.grading.classes.members import Members, Row, Settings
-from botschool.grading.classes.people import Person
+from botschool.grading.classes.identity import Known, Student, ask, letters
 from botschool.grading.classes.policy import moodle_moment
-from botschool.grading.classes.rules import tidy
+from botschool.grading.classes.rules import Policy, tidy
 from botschool.grading.classes.times import told_by
 from botschool.grading.classes.wall import Broken, walled
 from botschool.grading.declare.exercise import Number, called
@@ -24,11 +26,151 @@ _NUMBERS = ("participant", "user", "sid", "submission")
 MISSING = "Nothing was handed in."
 
 
-def _told(file: File) -> datetime | None:
-    try:
-        return walled(told_by, file)
-    except Broken:
-        return None
+@dataclass
+class Row:
+    """A person of the class: a row of its table."""
+
+    number: int
+    """Among the known people."""
+    name: str
+    about: Student
+    """All that tables and downloads say of the person."""
+    student: Student | None
+    """The person on the class list."""
+    parts: list[Person] = field(default_factory=list)
+    """What the person handed in: one for each download."""
+    group: list[tuple[Number, str, Person]] = field(default_factory=list)
+    """What members of the person's group handed in: the exercise (0: all), who, and what."""
+    keys: list[str] = field(default_factory=list)
+    """The words by which the settings may name the person."""
+    page: str = ""
+    """The name of the feedback page; "" for somebody who handed in nothing."""
+    results: list[dict[str, Any]] = field(default_factory=list)
+    total: float | None = None
+    """The points of all exercises; None if one of them was not graded."""
+    said: list[str] = field(default_factory=list)
+    """Sentences on the term's total."""
+
+    def handed(self, number: Number) -> list[tuple[str, Person]]:
+        """Return the submissions of an exercise; the group's if the person has none."""
+        own = [("", part) for part in self.parts if number in part.files]
+        return own or [
+            (said, part)
+            for which, said, part in self.group
+            if number in part.files and which in (0, number)
+        ]
+
+    @property
+    def is_missing(self) -> bool:
+        """Return whether neither the person nor the group handed anything in."""
+        numbers = {number for _, _, part in self.group for number in part.files}
+        return not self.parts and not any(map(self.handed, numbers))
+
+    @property
+    def notes(self) -> list[str]:
+        return [note for part in self.parts for note in part.notes]
+
+
+class Members:
+    """The people of a class, from its list, the platform's table, and what they handed in."""
+
+    def __init__(self, policy: Policy) -> None:
+        """Start with the tables."""
+        self.policy = policy
+        self.roster = policy.people or policy.gradebook
+        self.rows: list[Row] = []
+        self.notes: list[str] = []
+        self._known = Known(self.policy.answers)
+        self._of_book: dict[int, Student] = {}
+        self._sheet: dict[str, int] = {}
+        """Moodle's number -> row of the worksheet."""
+        if self.roster:
+            self._known.add(self.roster.students, "the class list")
+        self._book = policy.gradebook or self.roster
+        if book := self._book:
+            found = self._known.add(book.students, book.table.path.name)
+            self._of_book = dict(zip(found, book.students, strict=True))
+            self._sheet = {
+                row.participant: row.row
+                for each in book.students
+                for row in (each, *each.again)
+                if row.participant
+            }
+
+    @property
+    def unknown(self) -> list[str]:
+        """Return the names of people who are not on the class list, if there is one."""
+        return [row.name for row in self.rows if self.roster and row.student is None]
+
+    @property
+    def missing(self) -> list[Row]:
+        return [row for row in self.rows if row.is_missing]
+
+    def lacking(self) -> list[str]:
+        """Return sentences on people who handed in nothing, or are not on the class list."""
+        nothing, strangers = listed([row.name for row in self.missing]), listed(self.unknown)
+        said = [f"Nothing from: {nothing}."] if nothing else []
+        return said + ([f"Not on the roster: {strangers}."] if strangers else [])
+
+    @property
+    def maximum(self) -> float:
+        """Return the most that a total can be."""
+        raise NotImplementedError
+
+    def average(self) -> str:
+        """Return the words of the mean total; "" if nobody has a total."""
+        totals = [row.total for row in self.rows if row.total is not None]
+        mean = sum(totals) / len(totals) if totals else 0.0
+        return f"{mean:.1f} of {self.maximum} points on average" if totals else ""
+
+    def row(self, number: int, name: str) -> Row:
+        """Return a row for a person; name: of one who is not on the class list."""
+        students = self.roster.students if self.roster else []
+        student = students[number] if number < len(students) else None
+        about = self._known.people[number]
+        ids = {each.id.casefold() for each in self._known.people}
+        bare = [each.partition(" ")[2] for each in about.numbers()]
+        keys = [*about.called(), *(each for each in bare if each not in ids)]
+        for pair in self.policy.answers.items():  # another email of the same person
+            both = [each.casefold() for each in pair]
+            keys += both if any(each in keys for each in both) else []
+        shown = student.name if student else name
+        return Row(number, shown, about, student, keys=list(dict.fromkeys(keys)))
+
+    def ask(self) -> None:
+        """Put doubtful people into the table in the class's folder."""
+        doubts = self._known.doubts
+        self.doubtful = [each for each in doubts if not each.taken]
+        self.notes += ask(self.policy.folder, doubts) if self.policy.folder else []
+
+    def check_names(self, numbers: Collection[Number]) -> None:
+        """Raise BotschoolErrors with what is wrong in the settings, and whom they cannot mean.
+
+        numbers: the exercises whose rules matter.
+        """
+        errors, policy = list(self.policy.errors), self.policy
+        counts = Counter(key for row in self.rows for key in row.keys)
+        members = [each for group in policy.groups.values() for each in group if self.roster]
+        for name in dict.fromkeys([*policy.named(numbers), *members]):
+            place = policy.places.get(name, "The class's settings:")
+            if counts[name] == 0:
+                errors.append(
+                    f"{place} names {name}, who is not in the class: write the id, email, user "
+                    "name or name of a student."
+                )
+            elif counts[name] > 1:
+                errors.append(
+                    f"{place} names {name}, which is the name of {counts[name]} students: write "
+                    "the id or the email."
+                )
+        if errors:
+            raise BotschoolErrors(errors)
+
+    def book_rows(self) -> Iterator[tuple[Student, Row]]:
+        """Yield each student of the gradebook with the row."""
+        for row in self.rows:
+            if student := self._of_book.get(row.number):
+                yield student, row
 
 
 def _entry(person: Person, row: int) -> Student:
@@ -46,66 +188,47 @@ class Register(Members):
     the end.
     """
 
-    def __init__(self, submissions: list[Submission], settings: Settings) -> None:
+    def __init__(self, people: list[Person], policy: Policy) -> None:
         """Match them. Raises BotschoolErrors, with all that is wrong in the settings."""
-        super().__init__(settings)
-        self._enter(submissions, self._number(submissions))
-        self.check_names(submissions[0].choices if submissions else ())
+        super().__init__(policy)
+        self._told: dict[File, datetime | None] = {}
+        found = self._numbered(people)
+        students = range(len(self.roster.students) if self.roster else 0)
+        shown = Counter(own[0].student for own in found.values())
+        for number in dict.fromkeys([*found, *students]):
+            parts = found.get(number, [])
+            row = self.row(number, _name(parts[0], shown) if parts else "")
+            row.parts = parts
+            self.rows.append(row)
+        self.check_names(people[0].choices if people else ())
         self._join_groups()
-        self._told = {
-            (id(part), number): _told(choice.origin)
-            for part in submissions
-            for number, choice in part.choices.items()
-            if choice.origin and not part.person.platform and self.policy.has_deadline(number)
-        }
         self.ask()
 
-    def _number(self, submissions: list[Submission]) -> list[int]:
-        """Return the number of each submission's person among the known ones."""
-        book = self.settings.gradebook
-        lists = [each for each in (book, self.settings.roster) if each]
-        numbers: dict[int, int] = {}
-        sections: dict[str, list[int]] = {}
-        for index, one in enumerate(submissions):
-            sections.setdefault(one.person.section, []).append(index)
-        for section, those in sections.items():
-            people = [submissions[index].person for index in those]
-            matched = [
-                next(filter(None, (each.match(person) for each in lists)), None)
-                for person in people
-            ]
-            counts = Counter(each for each in matched if each)
-            entries = []
-            for index, person, student in zip(those, people, matched, strict=True):
-                numbered = person.ids.get("participant") or person.ids.get("user")
-                shared = student and counts[student] > 1 and numbered
-                entry = _entry(person, -1 - index)
-                if student and shared and numbered not in (student.participant, student.canvas):
-                    student = None  # two people of one name; the class list has one of them
-                entries.append(student or entry)
+    def _numbered(self, people: list[Person]) -> dict[int, list[Person]]:
+        """Return what each known person has handed in, by the person's number."""
+        lists = [each for each in (self.policy.gradebook, self.policy.people) if each]
+        found, rows = dict[int, list[Person]](), iter(range(-1, -1 - len(people), -1))
+        for section in dict.fromkeys(one.section for one in people):
+            own = [one for one in people if one.section == section]
+            entries = [_entry(one, next(rows)) for one in own]
+            matched = [next(filter(None, (list.match(one) for list in lists)), None) for one in own]
+            counts = Counter(matched)
+            taken = []
+            for one, entry, student in zip(own, entries, matched, strict=True):
+                number = one.ids.get("participant") or one.ids.get("user")
+                shared = student and counts[student] > 1 and number
+                # of two people of one name the class list has one
+                other = shared and number not in (student.participant, student.canvas)
+                taken.append(entry if other or not student else student)
 
-            def clash(index: int, at: int, those: list[int] = those) -> bool:
-                others = [submissions[each] for each, number in numbers.items() if number == at]
-                return any(_both_did(submissions[those[index]], other) for other in others)
+            def clash(index: int, at: int, own: list[Person] = own) -> bool:
+                return any(_both_did(own[index], other) for other in found.get(at, ()))
 
-            at = self._known.add(entries, section or "this download", clash=clash)
-            for index, number in zip(those, at, strict=True):
-                numbers[index] = number
-                self._known.learn(number, _entry(submissions[index].person, -1 - index))
-        return [numbers[index] for index in range(len(submissions))]
-
-    def _enter(self, submissions: list[Submission], number_of: list[int]) -> None:
-        """Make a row for each person; those of the class list who handed in nothing come last."""
-        parts: dict[int, list[Submission]] = {}
-        for one, number in zip(submissions, number_of, strict=True):
-            parts.setdefault(number, []).append(one)
-        students = range(len(self.roster.students) if self.roster else 0)
-        parts |= {number: [] for number in students if number not in parts}
-        shown = Counter(own[0].student for own in parts.values() if own)
-        for number, own in parts.items():
-            row = self.row(number, _name(own[0], shown) if own else "")
-            row.parts = own
-            self.rows.append(row)
+            numbers = self._known.add(taken, section or "this download", clash=clash)
+            for one, entry, number in zip(own, entries, numbers, strict=True):
+                found.setdefault(number, []).append(one)
+                self._known.learn(number, entry)
+        return found
 
     def _join_groups(self) -> None:
         """Give each member what the others, or the group by its own name, handed in."""
@@ -124,46 +247,48 @@ class Register(Members):
                     for part in other.parts
                 ]
 
-    def moment(self, part: Submission, number: Number) -> datetime | None:
+    def moment(self, person: Person, number: Number) -> datetime | None:
         """Return when an exercise was handed in, if the platform or the files tell."""
-        person, table = part.person, self.settings.gradebook or self.roster
         if not person.platform and self.policy.has_deadline(number):
-            return self._told.get((id(part), number))
-        line = self._sheet.get(person.ids.get("participant", ""))
-        if person.submitted is None and line is not None and table:
-            return moodle_moment(table.table.get(table.table.rows[line], "submitted"))
+            file = person.choices[number].origin
+            if file and file not in self._told:
+                self._told[file] = None
+                with suppress(Broken):
+                    self._told[file] = walled(told_by, file)
+            return self._told.get(file)
+        line, book = self._sheet.get(person.ids.get("participant", "")), self._book
+        if person.submitted is None and line is not None and book:
+            return moodle_moment(book.table.get(book.table.rows[line], "submitted"))
         return person.submitted
 
     def result(
         self,
         row: Row,
         number: Number,
-        done: Mapping[tuple[int, Number], dict[str, Any]],
+        done: Mapping[tuple[Number, Path], dict[str, Any]],
         nothing: Callable[[str, bool], dict[str, Any]],
     ) -> dict[str, Any]:
         """Return a person's best result of an exercise, with deadline and adjustments.
 
-        done: results of (id of a submission, exercise). nothing: makes a result without points,
+        done: results of (exercise, file). nothing: makes a result without points,
         from the reason and whether it counts as graded.
         """
-        found = []
-        for said, part in row.handed(number):
+        found, handed = [], row.handed(number)
+        for said, part in handed:
             choice = part.choices[number]
-            if result := done.get((id(part), number)):
-                notes = [*choice.notes, *([said] if said else [])]
-                result = result | {"notes": notes, "file": choice.file}
-                moment = self.moment(part, number)
-                found.append(self.policy.apply(result, row.keys, moment, part.person.late))
+            notes = [*choice.notes, *filter(None, [said])]
+            result = done[number, choice.file] | {"notes": notes, "file": choice.file}
+            moment = self.moment(part, number)
+            found.append(self.policy.apply(result, row.keys, moment, part.late))
         if not found:
             choices = [part.choices[number] for part in row.parts]
-            missing = Choice(problem=MISSING, unread=row.is_missing)
-            choice = choices[0] if choices else missing
+            choice = next(iter(choices), Choice(problem=MISSING, unread=row.is_missing))
             result = nothing(choice.problem, not choice.unread) | {"notes": choice.notes}
             return self.policy.apply(result, row.keys, None, False)
         best = max(found, key=lambda each: (each["graded"], each["points"]))
         if len(found) > 1:
-            shown = [f"{part.person.section or part.student}" for _, part in row.handed(number)]
-            note = f"Handed in {len(found)} times ({listed(shown)}): the better one counts."
+            shown = listed([part.section or part.student for _, part in handed])
+            note = f"Handed in {len(found)} times ({shown}): the better one counts."
             best = best | {"notes": [*best["notes"], note]}
         return best
 
@@ -172,8 +297,8 @@ class Register(Members):
         if all(result["graded"] for result in row.results):
             row.total = tidy(self.policy.weighed(row.results)[0])
 
+    @property
     def maximum(self) -> float:
-        """Return the most that a total can be."""
         return tidy(self.policy.weighed(self.rows[0].results)[1])
 
     def without_effect(self, asked: list[Number], known: Collection[Number]) -> list[str]:
@@ -190,7 +315,7 @@ class Register(Members):
             parts = [(row, part) for row in self.rows for _, part in row.handed(number)]
             timeless = [
                 row.name for row, part in parts
-                if part.person.platform != "canvas"  # which marks those who are late
+                if part.platform != "canvas"  # which marks those who are late
                 and self.moment(part, number) is None
                 and not any({0, number} & {*policy.submitted.get(key, ())} for key in row.keys)
             ]  # fmt: skip
@@ -205,13 +330,13 @@ class Register(Members):
         return said
 
 
-def _name(one: Submission, shown: Counter) -> str:
+def _name(one: Person, shown: Counter) -> str:
     """Return the name of a person who is on no list; people of one name get a number."""
-    numbers = [one.person.ids[each] for each in _NUMBERS if one.person.ids.get(each)]
+    numbers = [one.ids[each] for each in _NUMBERS if one.ids.get(each)]
     return f"{one.student} ({numbers[0]})" if shown[one.student] > 1 and numbers else one.student
 
 
-def _both_did(one: Submission, other: Submission) -> bool:
+def _both_did(one: Person, other: Person) -> bool:
     """Return whether two submissions hold work on the same exercise."""
     common = one.files.keys() & other.files.keys()
     return any(one.choices[each].changed and other.choices[each].changed for each in common)
@@ -220,7 +345,7 @@ def _both_did(one: Submission, other: Submission) -> bool:
 def _is_of(row: Row, group: str) -> bool:
     """Return whether a submission has the name of a group: Canvas's, or ASSIGNMENT-GROUP."""
     name = letters(group).replace(" ", "")
-    shown = [name_of for part in row.parts for name_of in (part.student, part.person.folder)]
+    shown = [name_of for part in row.parts for name_of in (part.student, part.folder)]
     return any(
         letters(each).replace(" ", "") == name or each.casefold().endswith(f"-{group.casefold()}")
         for each in shown

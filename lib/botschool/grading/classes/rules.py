@@ -13,9 +13,11 @@ from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
 
+from botschool.grading.classes.identity import Roster
 from botschool.grading.declare.exercise import Number
 
 _UNITS = {"hour": timedelta(hours=1), "day": timedelta(days=1), "week": timedelta(weeks=1)}
+MOST_POINTS = 1e6
 TOTAL = "total"
 """What an adjustment of the term's total names instead of an exercise."""
 
@@ -51,9 +53,15 @@ class Adjustment:
 
 @dataclass
 class Policy:
-    """A class's settings; keys of people are words of Student.called."""
+    """A class's settings and tables; keys of people are words of Student.called."""
 
     roster: Path | None = None
+    people: Roster | None = None
+    """The class list."""
+    gradebook: Roster | None = None
+    """The platform's table, to fill in."""
+    column: str = ""
+    """The column in Canvas's gradebook."""
     due: dict[Number, datetime] = field(default_factory=dict)
     late: LateRule | None = None
     extensions: dict[str, dict[Number, datetime]] = field(default_factory=dict)

@@ -1,4 +1,4 @@
-"""Find submissions that resemble each other, and write a page of the most similar pairs.
+"""Find programs, and sheets of laboratories, that resemble each other, and show them on a page.
 
 Programs are compared as sequences of tokens, without comments, layout and names of variables. Code
 of the skeleton does not count, and code that many have counts little. A similar pair is a reason to
@@ -14,12 +14,14 @@ import math
 import tokenize
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from html import escape
 from types import MappingProxyType
 
+from botschool.grading.classes.identity import words
 from botschool.grading.classes.wall import Broken, walled
-from botschool.grading.declare.exercise import Number
+from botschool.grading.declare.checks import plain
+from botschool.grading.declare.exercise import Number, called
 from botschool.grading.report.paper import listing, paper, runs
 
 LENGTH = 9
@@ -31,6 +33,8 @@ EQUAL = 0.995
 MIN_SEQUENCES = 15
 """Own tokens that a submission needs to be compared."""
 MAX_TOKENS = 50_000
+LONG = 6
+"""Words of an answer that two people hardly write by chance."""
 
 
 @dataclass(frozen=True)
@@ -134,6 +138,86 @@ def _grouped(pairs: list[Pair]) -> list[Pair]:
 def _lines(own: dict[tuple[str, ...], set[int]], keys: Iterable[tuple[str, ...]]) -> frozenset[int]:
     """Return the lines on which these sequences stand."""
     return frozenset(line for key in keys for line in own[key])
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A laboratory's sheet, as it was handed in."""
+
+    student: str
+    name: str
+    """The name that stands in it."""
+    robots: frozenset[str]
+    """Hashes of the robots of its runs."""
+    prediction: Mapping[str, str] = field(default_factory=dict)
+    """Question -> answer."""
+
+    @property
+    def sentences(self) -> set[str]:
+        """Return the long answers of the prediction, without signs and capital letters."""
+        return {
+            own for each in self.prediction.values() if len((own := words(each)).split()) >= LONG
+        }
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """Sentences that say why these sheets deserve a look."""
+
+    told: list[str]
+    sheets: tuple[Sheet, ...]
+
+
+def doubtful(sheets: Sequence[Sheet], people: Iterable[str]) -> list[Doubt]:
+    """Return each sheet of another's name, and each two with equal runs or predictions.
+
+    people: the names of all students. A sheet may hold a part of its student's name.
+    """
+    known = {person: set(words(person).split()) for person in people}
+    found = []
+    for sheet in sheets:
+        named, own = set(words(sheet.name).split()), set(words(sheet.student).split())
+        others = [person for person, parts in known.items() if named <= parts]
+        if named and not named <= own and others:
+            said = (
+                f"{sheet.student} handed in a sheet with the name {plain(sheet.name[:80])}, "
+                f"which is that of {', '.join(others)}."
+            )
+            theirs = [each for each in sheets if each.student in others]
+            found.append(Doubt([said], (sheet, *theirs)))
+    for first, second in itertools.combinations(sheets, 2):
+        if first.student == second.student:
+            continue
+        told, both = [], f"{first.student} and {second.student}"
+        if common := len(first.robots & second.robots):
+            told.append(
+                f"{both} handed in the same runs: {common} of {len(first.robots)} and of "
+                f"{len(second.robots)}."
+            )
+        if first.sentences & second.sentences:
+            told.append(f"{both} give the same reason in their predictions.")
+        if told:
+            found.append(Doubt(told, (first, second)))
+    return found
+
+
+def sheets_section(number: Number, doubts: Sequence[Doubt]) -> str:
+    """Return the part of the page on similar submissions that shows these sheets."""
+    shown = []
+    for doubt in doubts:
+        told = "".join(f"<p>{escape(each)}</p>" for each in doubt.told)
+        sides = "".join(map(_side, doubt.sheets))
+        shown.append(f'<section>{told}<div class="both">{sides}</div></section>')
+    return f"<h1>{called(number)}: sheets to look at</h1>{''.join(shown)}"
+
+
+def _side(sheet: Sheet) -> str:
+    answers = "".join(
+        f"<dt>{escape(what)}</dt><dd>{escape(plain(text))}</dd>"
+        for what, text in sheet.prediction.items()
+    )
+    about = f"name: {plain(sheet.name[:80]) or 'none'}; runs: {len(sheet.robots)}"
+    return f"<div><h2>{escape(sheet.student)}</h2><p>{escape(about)}</p><dl>{answers}</dl></div>"
 
 
 _STYLE = """

@@ -97,6 +97,22 @@ def made_table(rows: Iterable[Sequence[Any]]) -> bytes:
     return stream.getvalue().encode("utf-8-sig", "replace")
 
 
+def check_own(path: Path, sign: str, maker: str) -> None:
+    """Raise BotschoolError before overwriting a file that lacks the sign of our command."""
+    try:
+        with path.open(encoding="utf-8-sig", errors="replace") as file:
+            head = file.read(1000)
+    except FileNotFoundError:
+        return
+    except OSError:
+        head = ""
+    if sign not in head or path.is_symlink():
+        raise BotschoolError(
+            f"{path} exists and was not made by {maker}: move it away, or choose another folder "
+            "with -o."
+        )
+
+
 _FORMULA = re.compile(
     r"""((?:^|[;,])[\s"\x00-\x1f\u200b-\u200f\u2060\ufeff]*)"""
     "(?=[-=+@\u2212\ufe62\ufe63\ufe66\ufe6b\uff0b\uff0d\uff1d\uff20])"

@@ -17,9 +17,9 @@ from rich.console import Console
 from botschool.errors import BotschoolError
 from botschool.grading.classes.files import listed
 from botschool.grading.classes.identity import Student
-from botschool.grading.classes.members import Members, Row, Settings
+from botschool.grading.classes.register import Members, Row
 from botschool.grading.classes.rules import TOTAL, Policy, tidy
-from botschool.grading.classes.tables import made_table
+from botschool.grading.classes.tables import check_own, made_table
 from botschool.grading.declare.exercise import Number, called
 from botschool.grading.report.paper import GENERATOR
 from botschool.output import save_bytes
@@ -94,11 +94,9 @@ def _student(about: Mapping[str, Any]) -> Student:
 class Term(Members):
     """The people of a term, with the results of all outputs."""
 
-    def __init__(self, outputs: list[Output], settings: Settings) -> None:
+    def __init__(self, outputs: list[Output], policy: Policy) -> None:
         """Join the outputs. Raises BotschoolErrors, with all that is wrong in the settings."""
-        super().__init__(settings)
-        self.maximum = 0.0
-        """The most that a total can be."""
+        super().__init__(policy)
         self.exercises = {
             number: result | _EMPTY
             for output in outputs
@@ -143,10 +141,14 @@ class Term(Members):
 
     def finish(self, row: Row) -> None:
         """Compute a row's total, in which nothing counts 0; None if a submission is not graded."""
-        total, self.maximum, row.said = self.policy.of_term(row.results, row.keys)
+        total, _, row.said = self.policy.of_term(row.results, row.keys)
         there = [result for result in row.results if result["handed in"] or result["graded"]]
         if all(result["graded"] for result in there) and (there or row.said):
             row.total = total
+
+    @property
+    def maximum(self) -> float:
+        return self.policy.of_term(self.exercises.values(), [])[1]
 
     @property
     def missing(self) -> list[Row]:
@@ -177,11 +179,8 @@ def _said(result: dict[str, Any]) -> str:
 
 def say_term(console: Console, term: Term, outputs: list[Output]) -> bool:
     """Print what the instructor must know; True if nothing is left to do."""
-    totals = [row.total for row in term.rows if row.total is not None]
-    mean = f"{sum(totals) / len(totals):.1f} of {term.maximum}" if totals else ""
-    average = f", {mean} points on average" if totals else ""
-    lines = [f"{len(term.rows)} people, {len(term.exercises)} exercises{average}."]
-    lines += term.lacking()
+    counts = [f"{len(term.rows)} people, {len(term.exercises)} exercises", term.average()]
+    lines = [", ".join(filter(None, counts)) + ".", *term.lacking()]
     lacking = ((row, r) for row in term.rows for r in row.results if not r["graded"])
     ungraded = list(dict.fromkeys(row.name for row, result in lacking if result["handed in"]))
     if ungraded:
@@ -199,14 +198,7 @@ def say_term(console: Console, term: Term, outputs: list[Output]) -> bool:
 
 def write_term(term: Term, output: Path, more: dict[str, bytes]) -> list[Path]:
     """Write the table and the platform's; return the paths. Raises BotschoolError."""
-    place = output / TABLE
-    if place.exists():
-        head = place.read_bytes()[:100].decode("utf-8-sig", "replace")
-        if place.is_symlink() or not head.startswith("student,total"):
-            raise BotschoolError(
-                f"{place} exists and was not made by botschool gradebook: move it away, or choose "
-                "another folder with -o."
-            )
+    check_own(output / TABLE, "student,total", "botschool gradebook")
     output.mkdir(parents=True, exist_ok=True)
     made = {TABLE: table(term)} | more
     for name, content in made.items():

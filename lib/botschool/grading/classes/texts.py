@@ -26,7 +26,6 @@ _JUPYTER = re.compile(
 _INVISIBLE = re.compile("[\x1a\u200b-\u200f\u202a-\u202e\u2060\u2066-\u2069\ufeff]")
 _CODE = re.compile(r"^[^\n'\"#]*", re.MULTILINE)
 """The beginning of a line, up to its first text or comment."""
-_BLOCKS = {"p", "div", "br", "li", "tr", "pre", "h1", "h2", "h3", "h4", "table", "ul", "ol"}
 
 
 def decoded(content: bytes) -> tuple[str, str]:
@@ -151,101 +150,54 @@ def text_of_page(page: str) -> str:
     """Return the program in a web page, line by line.
 
     This is the highlighted code, as in the page that Jupyter makes of a notebook; else the
-    preformatted text, if it has functions; else all text, with headings as comments.
+    preformatted text, if it has functions; else all text, with headings as comments. Python's own
+    parser takes time with the square of the length of a hostile page.
     """
-    reader = _Page()
-    reader.read(_without_comments(page))
-    found = ["\n".join(reader.highlighted), "\n".join(reader.preformatted)]
-    chosen = next((text for text in found if re.search(r"^(def|class) ", text, re.MULTILINE)), "")
-    text = chosen or "".join(reader.parts)
+    shown: list[str] = []
+    preformatted: list[str] = []
+    highlighted: list[str] = []
+    hidden, divs = 0, [0]  # how many elements `highlight` are open, within each <div>
+    begin: int | None = None  # of the preformatted text
+    for found in _PIECE.finditer(_without_comments(page)):
+        end, tag, inside = found[1], (found[2] or "").lower(), found[3] or ""
+        begins_line = not shown or shown[-1].endswith("\n")
+        if tag in _HIDDEN:
+            hidden = max(0, hidden + (-1 if end else 1))
+        if tag == "div" and end and len(divs) > 1:
+            divs.pop()
+        elif tag == "div" and not end:
+            classes = _CLASS.search(inside)
+            divs.append(divs[-1] + bool(classes and "highlight" in classes[1].split()))
+        if tag == "pre" and end and begin is not None:
+            preformatted.append("".join(shown[begin:]))
+            highlighted += preformatted[-1:] * bool(divs[-1])
+            begin = None
+        if not tag and not found[0].startswith(("<!", "<?")) and not hidden:
+            text = html.unescape(found[0])
+            if begins_line and begin is None:
+                text = text.lstrip("\r\n")  # the page's own line end after <br> or <p>
+            shown += [text] * bool(text)
+        if (tag in _BLOCKS and not begins_line) or (tag == "br" and not end):
+            shown.append("\n")
+        if not end and tag in _HEADINGS:
+            shown.append("# ")
+        if not end and tag == "pre":
+            begin = len(shown)
+    programs = ["\n".join(highlighted), "\n".join(preformatted)]
+    chosen = (text for text in programs if re.search(r"^(def|class) ", text, re.MULTILINE))
+    text = next(chosen, "".join(shown))
     text = text.replace("\r\n", "\n").replace("\xa0", " ").replace("\u200b", "")
     return re.sub(r"\n{3,}", "\n\n", text).strip("\n") + "\n"
 
 
-_HEADINGS = {"h1", "h2", "h3", "h4"}
-_TAG = re.compile(r"<(?:(/?)([a-zA-Z][^<>]*)|[!?][^<>]*)>")
+_PIECE = re.compile(r"<(/?)([a-zA-Z][a-zA-Z0-9]*)([^<>]*)>|<[!?][^<>]*>|[^<]+|<")
+"""A tag of a web page, or a piece of its text."""
 _CLASS = re.compile(r"""\bclass *= {0,9}["']?([^"'<>]*)""", re.IGNORECASE)
+_BLOCKS = {"p", "div", "li", "tr", "pre", "h1", "h2", "h3", "h4", "table", "ul", "ol"}
+_HEADINGS, _HIDDEN = {"h1", "h2", "h3", "h4"}, {"script", "style", "head"}
 
 
 def _without_comments(page: str) -> str:
     """Return a page without its comments; a comment without an end reaches to the page's."""
-    parts, at = [], 0
-    while (start := page.find("<!--", at)) >= 0:
-        parts.append(page[at:start])
-        end = page.find("-->", start + 4)
-        if end < 0:
-            return "".join(parts)
-        at = end + 3
-    return "".join([*parts, page[at:]])
-
-
-class _Page:
-    """Collects the text of a page, the texts of <pre>, and those in an element `highlight`.
-
-    Python's own parser takes time with the square of the length of a hostile page.
-    """
-
-    def __init__(self) -> None:
-        self.parts: list[str] = []
-        self.preformatted: list[str] = []
-        self.highlighted: list[str] = []
-        self._skipped = 0
-        self._depth = 0
-        self._pre: list[str] = []
-        self._divs: list[bool] = []
-        self._highlights = 0
-
-    def read(self, page: str) -> None:
-        """Read a page without comments."""
-        at = 0
-        for found in _TAG.finditer(page):
-            self._text(page[at : found.start()])
-            at = found.end()
-            if found[2]:
-                tag = re.match(r"[a-z0-9]+", found[2].lower())[0]
-                (self._end if found[1] else self._start)(tag, found[2])
-        self._text(page[at:])
-
-    def _start(self, tag: str, inside: str) -> None:
-        if tag in ("script", "style", "head"):
-            self._skipped += 1
-        if tag == "div":
-            classes = _CLASS.search(inside)
-            self._divs.append(bool(classes) and "highlight" in classes[1].split())
-            self._highlights += self._divs[-1]
-        if tag == "pre":
-            self._depth += 1
-            self._pre = []
-        if tag in _BLOCKS:
-            self._end_line(always=tag == "br")
-        if tag in _HEADINGS:
-            self.parts.append("# ")
-
-    def _end(self, tag: str, inside: str) -> None:
-        if tag in ("script", "style", "head"):
-            self._skipped = max(0, self._skipped - 1)
-        if tag == "pre" and self._depth:
-            self._depth -= 1
-            text, self._pre = "".join(self._pre), []
-            self.preformatted.append(text)
-            self.highlighted += [text] * bool(self._highlights)
-        if tag == "div" and self._divs:
-            self._highlights -= self._divs.pop()
-        if tag in _BLOCKS - {"br"}:
-            self._end_line(always=False)
-
-    def _text(self, text: str) -> None:
-        if self._skipped:
-            return
-        text = html.unescape(text)
-        ended = not self.parts or self.parts[-1].endswith("\n")
-        if ended and not self._depth:
-            text = text.lstrip("\r\n")  # the page's own line end after <br> or <p>
-        if text:
-            self.parts.append(text)
-            self._pre += [text] * bool(self._depth)
-
-    def _end_line(self, always: bool) -> None:
-        self._pre += ["\n"] * (always and self._depth > 0)
-        if always or (self.parts and not self.parts[-1].endswith("\n")):
-            self.parts.append("\n")
+    first, *others = page.split("<!--")
+    return first + "".join(part.partition("-->")[2] for part in others)

@@ -1,4 +1,4 @@
-"""Unpack zip and tar files of submissions within limits, and trust nothing in them."""
+"""Tell by its first bytes what a file is, and unpack archives within limits, trusting nothing."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import islice
 from pathlib import Path, PurePosixPath
-from typing import IO, Any
+from typing import IO, Any, NamedTuple
 
 from botschool.grading.run.confined import SHORTAGES
 
@@ -50,28 +50,21 @@ class Room:
     files: int
 
 
-def room_of_download() -> Room:
-    """Return the limits of a whole class's zip file."""
-    return Room(8 * 2**30, 200_000)
-
-
-def room_of_submission() -> Room:
-    """Return the limits of all zip files that a person handed in."""
-    return Room(200 * 2**20, 10_000)
+DOWNLOAD, SUBMISSION = (8 * 2**30, 200_000), (200 * 2**20, 10_000)
+"""The room for a whole class's zip file, and for all zip files that a person handed in."""
 
 
 class Unpackable(Exception):
     """The zip file stays packed; the message ends the sentence "NAME ...": the reason."""
 
 
-@dataclass(frozen=True)
-class _Member:
-    """A file or folder in an archive."""
+class _Member(NamedTuple):
+    """A file, a folder, or anything else in an archive."""
 
     name: str
     size: int
-    is_folder: bool
-    is_file: bool
+    kind: str
+    """"file", "folder", or "" for a link or a device."""
     open: Callable[[], Any]
 
 
@@ -80,12 +73,11 @@ def unpack(archive: Path | bytes, target: Path, room: Room, name: str = "") -> l
 
     name: of the archive; a file that is only compressed gets it, without its last suffix.
 
-    Links are left out, but their folder is there. Names that lead elsewhere lose what leads there:
-    drives, roots and "..". Of two files with one name the second gets another.
-    Raises Unpackable, after which `target` may hold a part.
+    Links are left out, but their folder is there, so that nobody vanishes. Names that lead
+    elsewhere lose what leads there: drives, roots and "..". Of two files with one name the second
+    gets another. Raises Unpackable, after which `target` may hold a part.
     """
-    left_out: list[str] = []
-    numbers: dict[Path, int] = {}
+    left_out, numbers = list[str](), dict[Path, int]()
     if holds_more(archive, 2 * room.files):
         raise Unpackable(_TOO_MUCH)
     try:
@@ -93,10 +85,7 @@ def unpack(archive: Path | bytes, target: Path, room: Room, name: str = "") -> l
             room.files -= 1
             if room.files < 0:
                 raise Unpackable(_TOO_MUCH)
-            place = _inside(target, member, numbers)
-            if place is None or not _write(member, place, room):
-                left_out.append(member.name)
-                _keep_folder(target, member)
+            left_out += [] if _write(member, target, room, numbers) else [member.name]
     except Unpackable:
         raise
     except Exception as error:
@@ -121,20 +110,23 @@ def holds_more(archive: Path | bytes, most: int) -> bool:
 
 
 def _members(archive: Path | bytes, room: Room, name: str) -> Iterator[_Member]:
-    if isinstance(archive, bytes):
-        content = _decompressed(archive, room)
-        if content[257:262] == b"ustar":
-            yield from _of_tar(content)
-            return
-        if content is not archive:
-            file = io.BytesIO(content)
-            yield _Member(name.rpartition(".")[0], len(content), False, True, lambda: file)
-            return
-    with zipfile.ZipFile(io.BytesIO(archive) if isinstance(archive, bytes) else archive) as zip:
-        for entry in zip.infolist():
-            shown, is_link = _readable(entry), stat.S_ISLNK(entry.external_attr >> 16)
-            folder = shown.endswith("/")
-            yield _Member(shown, entry.file_size, folder, not is_link, partial(zip.open, entry))
+    content = _decompressed(archive, room) if isinstance(archive, bytes) else b""
+    file = io.BytesIO(content)
+    if content[257:262] == b"ustar":
+        with tarfile.open(fileobj=file, mode="r:") as tar:
+            for info in tar:
+                shown = info.name.encode("utf-8", "surrogateescape").decode("utf-8", "replace")
+                is_file = info.isreg() and not info.issparse()
+                kind = "folder" if info.isdir() else "file" if is_file else ""
+                yield _Member(shown, info.size, kind, partial(tar.extractfile, info))
+    elif content and content is not archive:
+        yield _Member(name.rpartition(".")[0], len(content), "file", lambda: file)
+    else:
+        with zipfile.ZipFile(file if isinstance(archive, bytes) else archive) as zip:
+            for entry in zip.infolist():
+                shown, is_link = _readable(entry), stat.S_ISLNK(entry.external_attr >> 16)
+                kind = "" if is_link else "folder" if shown.endswith("/") else "file"
+                yield _Member(shown, entry.file_size, kind, partial(zip.open, entry))
 
 
 def _decompressed(content: bytes, room: Room) -> bytes:
@@ -148,18 +140,6 @@ def _decompressed(content: bytes, room: Room) -> bytes:
     return content
 
 
-def _of_tar(archive: bytes) -> Iterator[_Member]:
-    with tarfile.open(fileobj=io.BytesIO(archive), mode="r:") as tar:
-        for info in tar:
-            yield _Member(
-                info.name.encode("utf-8", "surrogateescape").decode("utf-8", "replace"),
-                info.size,
-                info.isdir(),
-                info.isreg() and not info.issparse(),
-                partial(tar.extractfile, info),
-            )
-
-
 def _readable(entry: zipfile.ZipInfo) -> str:
     """Return the name in Unicode; some systems write UTF-8 without saying so."""
     name = entry.filename
@@ -169,36 +149,34 @@ def _readable(entry: zipfile.ZipInfo) -> str:
     return name.replace("\\", "/")
 
 
-def _inside(target: Path, member: _Member, numbers: dict[Path, int]) -> Path | None:
-    """Return a new place for a file below a folder; None if no place is possible.
+def _write(member: _Member, target: Path, room: Room, numbers: dict[Path, int]) -> bool:
+    """Unpack a file or make a folder; return False for what is left out, whose folder is made.
 
     numbers: the last number of each name that occurred twice.
     """
-    parts = _parts(member)
-    if not (member.is_file or member.is_folder):
-        return None
-    if not parts:
-        return target if member.is_folder else None
-    wanted = place = target.joinpath(*parts)
-    if member.is_folder:
-        return place
+    name = re.sub(r"^[A-Za-z]:", "", member.name)
+    parts = [_short(part) for part in PurePosixPath(name).parts if part not in ("/", "//", "..")]
+    parts = parts if len(parts) <= MAX_PARTS else [*parts[: MAX_PARTS - 1], parts[-1]]
+    folder = target.joinpath(*(parts if member.kind == "folder" else parts[:-1]))
+    if member.kind == "file" and member.size > room.size:
+        raise Unpackable(_TOO_MUCH)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except (FileExistsError, NotADirectoryError):  # a file has the name of one of its folders
+        return False
+    if member.kind != "file" or not parts:
+        return member.kind == "folder"
+    place = wanted = folder / parts[-1]
     while place.exists():
         number = numbers[wanted] = numbers.get(wanted, 1) + 1
         place = place.with_name(f"{wanted.stem} ({number}){place.suffix}")
-    return place
-
-
-def _parts(member: _Member) -> list[str]:
-    """Return the folders and the name of a member; of too many folders, only the first ones."""
-    name = re.sub(r"^[A-Za-z]:", "", member.name)
-    parts = [_short(part) for part in PurePosixPath(name).parts if part not in ("/", "//", "..")]
-    return parts if len(parts) <= MAX_PARTS else [*parts[: MAX_PARTS - 1], parts[-1]]
-
-
-def _keep_folder(target: Path, member: _Member) -> None:
-    """Make the folder of a file that is left out, so that its owner does not vanish."""
-    with contextlib.suppress(OSError):
-        target.joinpath(*_parts(member)[:-1]).mkdir(parents=True, exist_ok=True)
+    with member.open() as source, place.open("xb") as file:
+        while part := source.read(2**20):
+            room.size -= len(part)
+            if room.size < 0:
+                raise Unpackable(_TOO_MUCH)
+            file.write(part)
+    return True
 
 
 def _short(part: str) -> str:
@@ -209,20 +187,55 @@ def _short(part: str) -> str:
     return part
 
 
-def _write(member: _Member, place: Path, room: Room) -> bool:
-    """Unpack a file; return False where the name of one of its folders is that of a file."""
-    if member.is_file and member.size > room.size:
-        raise Unpackable(_TOO_MUCH)
-    try:
-        (place if member.is_folder else place.parent).mkdir(parents=True, exist_ok=True)
-    except (FileExistsError, NotADirectoryError):
-        return False
-    if member.is_folder:
-        return True
-    with member.open() as source, place.open("xb") as file:
-        while part := source.read(2**20):
-            room.size -= len(part)
-            if room.size < 0:
-                raise Unpackable(_TOO_MUCH)
-            file.write(part)
-    return True
+_SIGNS: tuple[tuple[bytes, str], ...] = (
+    (b"%PDF", "a PDF file"),
+    (b"{\\rtf", "a rich text file"),
+    (b"Rar!\x1a\x07", "a RAR archive"),
+    (b"7z\xbc\xaf'\x1c", "a 7z archive"),
+    (b"\x28\xb5\x2f\xfd", "a compressed file"),
+    (b"\x1f\x8b", "a compressed file"),
+    (b"BZh", "a compressed file"),
+    (b"\xfd7zXZ", "a compressed file"),
+    (b"\xd0\xcf\x11\xe0", "an Office document"),
+    (b"\x89PNG", "a picture"),
+    (b"\xff\xd8\xff", "a picture"),
+    (b"\x93NUMPY", "an array"),
+    (b"\x7fELF", "a program of the system"),
+    (b"b0VIM", "a file of the editor Vim"),
+    (b"version https://git-lfs", "a pointer of Git LFS"),
+    (b"Bud1", "a file of the system"),
+)
+_DOCUMENT = re.compile(r"(?i)\.(docx|docm|odt|pptx|odp|xlsx|ods|pages|key|numbers)$")
+_PAGE = re.compile(r"\s*(<\?xml[^>]*>\s*)?(<!--.*?-->\s*)?<(!doctype +html|html)\b", re.I | re.S)
+DATA = (
+    ".npy", ".npz", ".csv", ".json", ".ini", ".png", ".jpg", ".jpeg", ".gif", ".svg", ".dat", ".pt",
+    ".pth", ".onnx", ".yaml", ".yml", ".toml", ".xml", ".urdf", ".stl", ".obj", ".mp4",
+)  # fmt: skip
+"""Suffixes of data files, which a program reads or writes."""
+SIGN = 512
+"""Bytes at the beginning of a file that tell what it is."""
+
+
+def kind_of(head: bytes, name: str) -> str:
+    """Return what a file is, in words; "" if it may be a text. head: its first bytes."""
+    if head.startswith(b"PK\x03\x04"):
+        return "an Office document" if _DOCUMENT.search(name) else "a zip file"
+    return next((words for sign, words in _SIGNS if head.startswith(sign)), "")
+
+
+def is_archive(head: bytes, name: str) -> bool:
+    """Return whether `unpack` opens a file with these first bytes."""
+    if head.startswith((b"PK\x03\x04", b"PK\x05\x06")):
+        return not _DOCUMENT.search(name)
+    return head[257:262] == b"ustar" or head.startswith((b"\x1f\x8b", b"BZh", b"\xfd7zXZ"))
+
+
+def is_page(text: str) -> bool:
+    """Return whether a text is a web page, whatever its name."""
+    return bool(_PAGE.match(text[:2000]))
+
+
+def may_hold_code(name: str) -> bool:
+    """Return whether a file of this name may be a program or a notebook."""
+    lower = name.lower()
+    return lower.endswith(".json") or not lower.endswith(DATA)

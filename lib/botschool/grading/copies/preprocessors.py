@@ -26,7 +26,7 @@ from botschool.errors import BotschoolError
 from botschool.grading.copies.skeleton import BEGIN, skeleton
 from botschool.grading.declare.exercise import course_root, load_exercise, secret_for_others
 from botschool.grading.judge.submission import Submission, TaskResult
-from botschool.grading.notebook import report
+from botschool.grading.notebook import marks, report
 from botschool.grading.run.confined import fork_server
 
 ANSWER, TEST = "task-", "test-"
@@ -106,18 +106,7 @@ class Restore(NbGraderPreprocessor):
 
 def _assignment_cell(source: Any, points: float | None) -> NotebookNode:
     """Return an answer cell (no points) or a test cell, as the gradebook knows it."""
-    test = points is not None
-    marks = {
-        "grade": test,
-        "grade_id": source.name,
-        "locked": test,
-        "schema_version": 3,
-        "solution": not test,
-        "task": False,
-    }
-    if test:
-        marks["points"] = points
-    metadata = {"nbgrader": marks, "deletable": False, "editable": not test}
+    metadata = marks(source.name, points) | {"deletable": False, "editable": points is None}
     return new_code_cell(source.source, id=source.name, metadata=metadata)
 
 

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from botschool.errors import BotschoolError
-from botschool.output import written_whole
+from botschool.output import save_bytes
 
 BEGIN, END = "### BEGIN SOLUTION", "### END SOLUTION"
 GENERATED = ".skeletons.json"
@@ -53,23 +53,33 @@ def write_skeletons(root: Path) -> list[Path]:
 
     The function never touches a file that a student has edited.
     """
-    digests_file = root / "exercises" / GENERATED
-    digests = json.loads(digests_file.read_text()) if digests_file.exists() else {}
+    folder = root / "exercises"
+    texts = {to.relative_to(folder).as_posix(): _generate(solution) for solution, to in pairs(root)}
+    return write_unedited(folder, texts, folder / GENERATED)
+
+
+def write_unedited(folder: Path, texts: dict[str, str], generated: Path) -> list[Path]:
+    """Write texts under their paths in a folder; return the files that somebody has edited.
+
+    generated: the file with the digest of every text that was written. Raises BotschoolError.
+    """
+    try:
+        digests = json.loads(generated.read_text())
+    except FileNotFoundError:
+        digests = {}
+    except ValueError:
+        raise BotschoolError(f"{generated} is damaged: remove it, then run this again.") from None
     edited = []
-    for solution, target in pairs(root):
-        name = target.relative_to(root / "exercises").as_posix()
-        text = _generate(solution)
-        if target.exists():
-            present = target.read_text(encoding="utf-8")
-            if present != text and _digest(present) != digests.get(name):
-                edited.append(target)
-                continue
+    for name, text in texts.items():
+        target = folder / name
+        present = target.read_text(encoding="utf-8") if target.exists() else text
+        if present != text and _digest(present) != digests.get(name):
+            edited.append(target)
+            continue
         target.parent.mkdir(parents=True, exist_ok=True)
-        with written_whole(target) as temporary:
-            temporary.write_text(text, encoding="utf-8", newline="\n")
+        save_bytes(target, text.encode())
         digests[name] = _digest(text)
-    with written_whole(digests_file) as temporary:
-        temporary.write_text(json.dumps(digests, indent=1, sort_keys=True) + "\n")
+    save_bytes(generated, (json.dumps(digests, indent=1, sort_keys=True) + "\n").encode())
     return edited
 
 

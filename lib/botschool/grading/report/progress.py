@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import hashlib
 import json
 import zlib
 from collections.abc import Iterable
@@ -27,7 +26,7 @@ from botschool.grading.declare.exercise import (
     submission_file,
 )
 from botschool.grading.packed import PACKED, unpack_answers
-from botschool.grading.run.confined import submission_files
+from botschool.grading.run.confined import content_digest
 from botschool.lock import alone
 from botschool.output import save_bytes
 
@@ -42,22 +41,16 @@ def stored_result(number: int, root: Path) -> dict[str, Any]:
     unedited file has 0 points. "problem" says that the file is missing.
     """
     exercise = load_exercise(number, root)
-    tasks = [
-        {"id": task.id, "title": task.title, "points": 0, "max_points": task.max_points}
-        for task in exercise.tasks
-    ]
+    tasks, digests = recall(root, exercise)
     state = problem = ""
     try:
         file = submission_file(number, None, root)
     except BotschoolError:
         problem = f"missing: botschool start {number}"
     else:
-        found = None if _untouched(number, root, file) else recall(root, exercise)
-        if found:
-            tasks, digests = found
-            state = "" if digests == {digest(file)} else CHANGED
-        elif not _untouched(number, root, file):
-            state = UNKNOWN
+        state = "" if digests == {digest(file)} else CHANGED if digests else UNKNOWN
+    if problem or _untouched(number, root, file):
+        state, tasks = "", [task | {"points": 0} for task in tasks]
     return {
         "exercise": number,
         "title": exercise.title,
@@ -146,15 +139,10 @@ FOLDER = "last"
 
 def digest(file: Path) -> str:
     """Return a digest of the submission's files; "" if they cannot be read."""
-    found = hashlib.sha256()
     try:
-        for path in submission_files(file):
-            name = str(path.relative_to(file.parent)).encode(errors="surrogateescape")
-            found.update(hashlib.sha256(name).digest())
-            found.update(hashlib.sha256(path.read_bytes()).digest())
+        return content_digest(file).hexdigest()
     except (Wrong, OSError):
         return ""
-    return found.hexdigest()
 
 
 def remember(root: Path, number: int, points: Iterable[tuple[str, int, int]], graded: str) -> None:
@@ -171,28 +159,20 @@ def remember(root: Path, number: int, points: Iterable[tuple[str, int, int]], gr
             save_bytes(place, json.dumps(_read(root, number) | new, indent=1).encode())
 
 
-def recall(root: Path, exercise: Exercise) -> tuple[list[dict[str, Any]], set[str]] | None:
+def recall(root: Path, exercise: Exercise) -> tuple[list[dict[str, Any]], set[str]]:
     """Return the last results of an exercise's tasks, and the digests of the graded files.
 
-    Each result has id, title, points (0 for a task that was not graded) and max_points. Return None
-    if no task was graded.
+    Each result has id, title, points (0 for a task that was not graded) and max_points.
     """
-    stored = _read(root, exercise.number)
-    tasks, digests = [], set()
+    stored, tasks, digests = _read(root, exercise.number), [], set()
     for task in exercise.tasks:
-        one = stored.get(task.id)
-        known = one is not None and one["max_points"] == task.max_points
-        tasks.append(
-            {
-                "id": task.id,
-                "title": task.title,
-                "points": one["points"] if known else 0,
-                "max_points": task.max_points,
-            }
-        )
-        if known:
-            digests.add(one["digest"])
-    return (tasks, digests) if digests else None
+        one = stored.get(task.id, {"max_points": None})
+        known = one["max_points"] == task.max_points
+        points = one["points"] if known else 0
+        digests |= {one["digest"]} if known else set()
+        tasks.append({"id": task.id, "title": task.title, "points": points})
+        tasks[-1]["max_points"] = task.max_points
+    return tasks, digests
 
 
 def _place(root: Path, number: int) -> Path:
@@ -224,8 +204,7 @@ def answers(number: int, root: Path) -> str:
         raise BotschoolError(
             f"This copy has no answers to exercise {number}: ask your instructor for them."
         )
-    tasks = (recall(root, exercise) or ([],))[0]
-    points = sum(task["points"] for task in tasks)
+    points = sum(task["points"] for task in recall(root, exercise)[0])
     maximum = sum(task.max_points for task in exercise.tasks)
     if points < maximum:
         raise BotschoolError(

@@ -12,7 +12,11 @@ import webbrowser
 from collections import Counter
 from pathlib import Path
 
+from rich.console import Console
+
 from botschool.errors import BotschoolError
+from botschool.grading.copies.release import MANIFEST
+from botschool.grading.copies.starting import living_page
 from botschool.grading.declare.checks import plain
 from botschool.grading.declare.exercise import Exercise, Task, load_exercise, submission_file
 from botschool.grading.report.album import Shown, captioned, write_album
@@ -181,3 +185,17 @@ def open_page(page: Path) -> bool:
     else:
         there = any(os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY"))
     return there and webbrowser.open(page.as_uri())
+
+
+def lead_to_page(number: int, root: Path, console: Console, opens: bool) -> None:
+    """Print where the living page of an exercise is, and open it."""
+    try:
+        page = living_page(number, root)
+    except BotschoolError as error:
+        copy = "This copy has none; whoever made it can add it."
+        why = copy if (root / MANIFEST).is_file() else error
+        console.print(f"  {'See':<11}the text as a page with figures: {why}", markup=False)
+        return
+    if page:
+        note = " (opened in your browser)" if opens and open_page(page.resolve()) else ""
+        console.print(f"  {'See':<11}{os.path.relpath(page)}{note}", markup=False)
