@@ -9,7 +9,6 @@ import signal
 import sys
 import tempfile
 import time
-import traceback
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -19,7 +18,7 @@ from rich.markup import escape
 
 from botschool.errors import BotschoolError
 from botschool.grading.classes.batch import Grades, Job
-from botschool.grading.declare.checks import Wrong, plain
+from botschool.grading.declare.checks import plain
 from botschool.grading.declare.exercise import (
     Exercise,
     Task,
@@ -36,9 +35,7 @@ from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import Result, grade
 from botschool.grading.report.progress import digest, remember
 from botschool.grading.report.screen import Screen, Watched, counting, say_missing
-from botschool.grading.run.confined import close_class, fork_server
-from botschool.grading.run.debug import DirectStudent
-from botschool.grading.run.ours import ours_of
+from botschool.grading.run.confined import close_class
 from botschool.grading.run.temporary import temporary_files_within
 from botschool.terminal import exits_on_signals
 
@@ -70,7 +67,10 @@ def _grade_one(
     if debug:
         if submission is not None:
             _warn_of_unconfined(shown)
-        return debug_task(exercise, tasks[0], file), {}
+        from botschool.grading.report.explain import debug_task
+
+        debug_task(exercise, tasks[0], file)
+        return False, {}
     screen = Screen()
     report: Callable[[Any], None] = screen.task
     announce: Callable[[str], None] = screen.banner
@@ -135,29 +135,6 @@ def _warn_of_unconfined(file: Path) -> None:
             file=sys.stderr,
             flush=True,
         )
-
-
-def debug_task(exercise: Exercise, id: str, file: Path) -> bool:
-    """Run a task's checks in this process, without limits and points."""
-    task = exercise.find(id)
-    server = fork_server(exercise.imports)
-    exercise.ours = ours_of(exercise, server)
-    student = DirectStudent(file)
-    try:
-        for _, name, check in task.checks:
-            try:
-                check(student)
-                print(f"passed: {name}")
-            except Wrong as error:
-                print(f"failed: {name}: {error}")
-            except Exception:
-                print(f"failed: {name}:")
-                traceback.print_exc()
-    finally:
-        student.close()
-        exercise.ours.close()
-        server.close()
-    return False
 
 
 @exits_on_signals()

@@ -14,6 +14,7 @@ from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import (
     Exercise,
+    Task,
     course_root,
     load_exercise,
     secret_for_others,
@@ -98,13 +99,21 @@ def _grade_here(task: str) -> float:
             "You have run code that is not saved: save the notebook (Ctrl+S), then run this cell "
             "again."
         )
+    ((result, banner),) = graded(exercise, path, sources, [asked])
+    print(report(result, banner))
+    return float(result.points)
+
+
+def graded(
+    exercise: Exercise, path: Path, sources: list[str], tasks: list[Task]
+) -> list[tuple[TaskResult, str]]:
+    """Return the result of each task of a notebook, and why the notebook cannot be loaded."""
     with (
         fork_server(exercise.imports) as server,
         Submission(path, server, sources, exercise.file, exercise=exercise) as submission,
     ):
-        result = submission.grade(asked).complete()
-    print(report(result, submission.banner))
-    return float(result.points)
+        results = [submission.grade(task).complete() for task in tasks]
+        return [(result, submission.banner) for result in results]
 
 
 def _prepare_for_others(exercise: Exercise) -> None:

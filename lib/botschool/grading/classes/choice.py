@@ -34,10 +34,9 @@ class Wanted(Sought):
         self, handed: Handed, new_folder: Callable[[], Path], newest_first: bool = False
     ) -> Choice:
         """Return the file to grade; newest_first: whether the platform numbers attempts."""
-        candidates, unread = _candidates(handed, self)
+        candidates, unread = _candidates(handed, handed.files, self)
         if not candidates and handed.checkpoints:
-            kept = Handed(handed.checkpoints, handed.links)
-            candidates, unread = _candidates(kept, self)
+            candidates, unread = _candidates(handed, handed.checkpoints, self)
         if not candidates:
             if any(_is_of(link, self) for link in handed.links):
                 return Choice(problem=f"{self.file} is a link to another place.")
@@ -84,19 +83,19 @@ def _is_of(link: str, wanted: Wanted) -> bool:
     return parts[-1] in (wanted.file, wanted.folder, "exercises") or wanted.folder in parts
 
 
-def _candidates(handed: Handed, wanted: Wanted) -> tuple[list[Candidate], bool]:
+def _candidates(handed: Handed, files: list[File], wanted: Wanted) -> tuple[list[Candidate], bool]:
     """Return the files that fit, and whether an unreadable one may be the exercise's.
 
     Files of other names count only if every file of the exercise's name is unchanged, and what the
     course gives out beside the exercises never: its library has modules of similar names.
     """
-    courses = {match[1] for file in handed.files if (match := _COURSE.match(file.shown))}
+    courses = {match[1] for file in files if (match := _COURSE.match(file.shown))}
     given = tuple(course + folder for course in courses for folder in GIVEN)
-    own = {file for file in handed.files if not file.shown.startswith(given)}
+    own = {file for file in files if not file.shown.startswith(given)}
     named = {file for file in own if wanted.stem in squashed(file.name)}
     found, unread = [], False
-    for files in (named, own - named):
-        for file in sorted(files, key=lambda file: file.shown):
+    for group in (named, own - named):
+        for file in sorted(group, key=lambda file: file.shown):
             if not may_hold_code(file.name):
                 continue
             try:

@@ -6,7 +6,7 @@ import hashlib
 import os
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
@@ -49,12 +49,11 @@ class Laboratory:
 class Class:
     """The results of an export."""
 
-    rows: list[Row]
     register: Register
     nobodys: list[str]
     """Files that belong to no person."""
     notes: list[str]
-    written: list[Path] = field(default_factory=list)
+    written: list[Path]
     """Files beside the table and the pages."""
 
 
@@ -108,19 +107,14 @@ def grade_all(
         names = _page_names(register.rows)
         _check_own(output, names)
         _grade(register, asked, grades, skeletons, workers, start, report)
-        (output / PAGES).mkdir(parents=True, exist_ok=True)
-        for row, name in zip(register.rows, names, strict=True):
-            if not row.is_missing:
-                row.page = name
-                text = page(row.name, row.results, [*row.notes, *row.said])
-                save_bytes(output / PAGES / name, text.encode("utf-8", "replace"))
+        _write_pages(output / PAGES, register.rows, names)
         save_bytes(output / TABLE, _table(register.rows, register))
         notes = [*export.notes, *_notes(policy, export, download)]
         written = write_outputs(output, register.rows, register, asked, skeletons, rules)
         known = [*exercise_numbers(root), *laboratories]
         notes += [*register.notes, *register.without_effect([*asked], known)]
         nobodys = [name for name in export.nobodys if name != FILE]
-    return Class(register.rows, register, nobodys, notes, written)
+    return Class(register, nobodys, notes, written)
 
 
 def _notes(policy: Policy, export: Export, download: Path) -> list[str]:
@@ -170,6 +164,16 @@ def _code(file: Path) -> str:
     except OSError:
         return ""
     return code_of_notebook(text) if file.suffix == ".ipynb" else text
+
+
+def _write_pages(folder: Path, rows: list[Row], names: list[str]) -> None:
+    """Write a page for each person who handed in something."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for row, name in zip(rows, names, strict=True):
+        if not row.is_missing:
+            row.page = name
+            text = page(row.name, row.results, [*row.notes, *row.said])
+            save_bytes(folder / name, text.encode("utf-8", "replace"))
 
 
 def _page_names(rows: list[Row]) -> list[str]:

@@ -98,7 +98,7 @@ def grade_all_command(
     console.print(f"Also: {shown}", markup=False, soft_wrap=True)
     if said:
         console.print(said, markup=False, soft_wrap=True)
-    say_missing(console, [result for row in found.rows for result in row.results])
+    say_missing(console, [result for row in found.register.rows for result in row.results])
     return good
 
 
@@ -182,7 +182,7 @@ def gradebook_command(
 
 def say_class(console: Console, found: Class) -> bool:
     """Print a class's results in a few lines; True if nobody is missing, unknown or ungraded."""
-    register, rows = found.register, found.rows
+    register, rows = found.register, found.register.rows
     handed_in = [row for row in rows if row.page]
     ungraded = sum(row.total is None for row in handed_in)
     left = f"{ungraded} not graded and not counted" if ungraded else ""

@@ -18,7 +18,7 @@ from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.classes.candidate import Choice, Sought
-from botschool.grading.classes.files import Collector, File, Handed
+from botschool.grading.classes.files import File, Handed
 from botschool.grading.classes.layouts import (
     GRADESCOPE,
     VERSION,
@@ -78,31 +78,35 @@ class Person:
     @cached_property
     def handed(self) -> Handed:
         """Return the person's files, read at the first use."""
-        collector = Collector(self.new_folder)
+        handed = Handed(self.new_folder)
         for path, shown in self.sources:
-            before, collector.handed.files = collector.handed.files, []
+            before, handed.files = handed.files, []
             if path.is_dir():
-                collector.add_folder(path)
+                handed.add_folder(path)
             else:
                 top, level = path.absolute().parent, 0 if shown else -1
-                collector.add_file(top, path.name, shown or path.name, level)
-                if not shown:
-                    collector.handed.files = _without_top(collector.handed.files)
-            collector.handed.files = before + collector.handed.files
-        return collector.handed
+                handed.add_file(top, path.name, shown or path.name, level)
+                handed.files = handed.files if shown else _without_top(handed.files)
+            handed.files = before + handed.files
+        return handed
 
 
-class People:
-    """Collect people from the entries of a folder; reading their files is left to Person.handed."""
+class Export:
+    """The people in a download; reading their files is left to Person.handed."""
 
     def __init__(self, new_folder: Callable[[], Path]) -> None:
         self.found: dict[tuple[str, ...], Person] = {}
         self.nobodys: list[str] = []
+        """Files that belong to no person."""
         self.notes: list[str] = []
         self._new_folder = new_folder
         self._section = ""
         self._alike: set[str] = set()
         """Names of folders that differ only in capitals, in lower case."""
+
+    @property
+    def people(self) -> list[Person]:
+        return list(self.found.values())
 
     def entries(self, top: Path, only: list[str] | None = None, sections: bool = True) -> None:
         """Add the people of a folder.
@@ -258,16 +262,6 @@ def _without_top(files: list[File]) -> list[File]:
     return files
 
 
-@dataclass
-class Export:
-    """The contents of a download."""
-
-    people: list[Person]
-    nobodys: list[str]
-    """Files that belong to no person."""
-    notes: list[str]
-
-
 def read_export(download: Path, wanted: Iterable[Sought], new_folder: Callable[[], Path]) -> Export:
     """Return the people of a folder or a zip file. Raises BotschoolError."""
     wanted, notes, top, is_zip = list(wanted), [], download, download.is_file()
@@ -287,27 +281,28 @@ def read_export(download: Path, wanted: Iterable[Sought], new_folder: Callable[[
             found = _descend(found, wanted, is_zip=True)
             if any(recognised(entry.name) for entry in visible(found)) or _only_zip(found):
                 top, is_zip = found, True
-    people = People(new_folder)
+    export = Export(new_folder)
+    export.notes += notes
     if _is_copy(top, wanted):
-        people.folder(download.stem if is_zip else download.resolve().name, top)
+        export.folder(download.stem if is_zip else download.resolve().name, top)
     else:
-        people.entries(top)
-    if not people.found:
+        export.entries(top)
+    if not export.found:
         raise BotschoolError(
             f"{download} holds no submissions: it needs a folder for each student, or must be "
             "a learning platform's zip file."
         )
-    return Export(list(people.found.values()), people.nobodys, notes + people.notes)
+    return export
 
 
 def one_person(place: Path, new_folder: Callable[[], Path]) -> Person:
     """Return the content of a folder or a zip file, or a single file, as one submission."""
-    people = People(new_folder)
+    export = Export(new_folder)
     names = [place.name] if place.is_file() else [entry.name for entry in visible(place)]
     if any(map(recognised, names)):
-        people.entries(place.parent if place.is_file() else place, only=names)
-        if len(people.found) == 1:
-            return next(iter(people.found.values()))
+        export.entries(place.parent if place.is_file() else place, only=names)
+        if len(export.found) == 1:
+            return export.people[0]
     return Person(plain(place.name), place.name, sources=[(place, "")], new_folder=new_folder)
 
 

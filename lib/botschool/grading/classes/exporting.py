@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 import shutil
 import tempfile
-import zipfile
 from pathlib import Path
 
 from botschool.errors import BotschoolError
@@ -134,7 +133,8 @@ def export(
             release(root, folder / "course", {number}, trusted=False)
             if platform == "gradescope":
                 _gradescope(folder, number, root, wheel)
-                _zip(folder, place)
+                shutil.make_archive(str(place.with_suffix("")), "zip", folder)
+                place.chmod(0o600)  # it holds the secret
             else:
                 _classroom50(folder, number, root)
                 shutil.move(folder, place)
@@ -192,11 +192,3 @@ def _classroom50(folder: Path, number: int, root: Path) -> None:
 def _script(path: Path, text: str) -> None:
     path.write_text(text, encoding="utf-8", newline="\n")
     path.chmod(0o755)
-
-
-def _zip(folder: Path, place: Path) -> None:
-    with zipfile.ZipFile(place, "x", zipfile.ZIP_DEFLATED) as archive:
-        for path in sorted(folder.rglob("*")):
-            if path.is_file():
-                archive.write(path, path.relative_to(folder).as_posix())
-    place.chmod(0o600)  # it holds the secret

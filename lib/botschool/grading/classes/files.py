@@ -7,7 +7,7 @@ import itertools
 import os
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 from botschool.grading.classes.unpack import (
@@ -96,38 +96,30 @@ class File:
         return read_inside(self.top, self.place, most)
 
 
-@dataclass
 class Handed:
     """All files that a person handed in."""
 
-    files: list[File] = field(default_factory=list)
-    links: list[str] = field(default_factory=list)
-    """Paths of links, which are never followed."""
-    ignored: list[str] = field(default_factory=list)
-    """Paths of what systems and tools left behind."""
-    checkpoints: list[File] = field(default_factory=list)
-    """Notebooks that Jupyter keeps beside the saved ones."""
-    notes: list[str] = field(default_factory=list)
-    """Sentences on unreadable places."""
-    unread: bool = False
-    """Whether a folder could not be read."""
-
-
-class Collector:
-    """List the files of a person."""
-
-    def __init__(self, new_folder: Callable[[], Path]) -> None:
+    def __init__(self, new_folder: Callable[[], Path] = Path) -> None:
         """Start; new_folder: makes an empty temporary folder for a zip file's content."""
-        self._new_folder = new_folder
-        self._room = Room(*SUBMISSION)
-        self.handed = Handed()
+        self._new_folder, self._room = new_folder, Room(*SUBMISSION)
+        self.files: list[File] = []
+        self.links: list[str] = []
+        """Paths of links, which are never followed."""
+        self.ignored: list[str] = []
+        """Paths of what systems and tools left behind."""
+        self.checkpoints: list[File] = []
+        """Notebooks that Jupyter keeps beside the saved ones."""
+        self.notes: list[str] = []
+        """Sentences on unreadable places."""
+        self.unread = False
+        """Whether a folder could not be read."""
 
     def add_folder(
         self, folder: Path, shown: str = "", level: int = 0, packed: File | None = None
     ) -> None:
         """Add the files of a folder; shown: the beginning of their paths; packed: as in File."""
         if folder.is_symlink():
-            self.handed.links.append(shown.rstrip("/") or folder.name)
+            self.links.append(shown.rstrip("/") or folder.name)
             return
         waiting = [("", 0)]
         while waiting:
@@ -136,26 +128,24 @@ class Collector:
                 with os.scandir(folder / inner) as entries:
                     found = sorted(entries, key=lambda entry: entry.name)
             except OSError:
-                self.handed.unread = True
-                self.handed.notes.append(
-                    f"The folder {shown + inner or folder.name} is unreadable."
-                )
+                self.unread = True
+                self.notes.append(f"The folder {shown + inner or folder.name} is unreadable.")
                 continue
             is_venv = any(entry.name == "pyvenv.cfg" for entry in found)
             for entry in found:
                 name = inner + entry.name
                 if is_junk(entry.name) or (is_venv and entry.name.lower() in OF_VENV):
-                    self.handed.ignored.append(shown + name)
+                    self.ignored.append(shown + name)
                     if entry.name == CHECKPOINTS:
                         self._add_checkpoints(folder, name, shown + name)
                     continue
                 if entry.is_symlink():
-                    self.handed.links.append(shown + name)
+                    self.links.append(shown + name)
                 elif entry.is_dir(follow_symlinks=False):
                     if depth < MAX_DEPTH:
                         waiting.append((name + "/", depth + 1))
                     else:
-                        self.handed.notes.append(f"{shown}{name} lies too deep: ignored.")
+                        self.notes.append(f"{shown}{name} lies too deep: ignored.")
                 elif not self.add_file(folder, name, shown + name, level, packed):
                     return
 
@@ -166,16 +156,14 @@ class Collector:
 
         level: of zip files around it; -1 for one that is a whole submission.
         """
-        if len(self.handed.files) >= MAX_FILES:
-            self.handed.notes.append(
-                f"There are more than {MAX_FILES} files: the others are ignored."
-            )
+        if len(self.files) >= MAX_FILES:
+            self.notes.append(f"There are more than {MAX_FILES} files: the others are ignored.")
             return False
         file = File(top, place, shown, packed)
         lower = shown.lower()
         is_packed = lower.endswith((*ARCHIVES, *PACKED))
         if not (is_packed or lower.endswith(_MAY_BE_ZIP) or not re.search(r"\.\w+$", file.name)):
-            self.handed.files.append(file)
+            self.files.append(file)
             return True
         head = _head(file)
         kind = kind_of(head, file.name)
@@ -183,9 +171,9 @@ class Collector:
         if is_archive(head, file.name) or (is_packed and not kind and not is_text):
             self._add_archive(file, level)
         elif is_packed and kind:
-            self.handed.notes.append(f"{shown} is {kind}, so it stays packed.")
+            self.notes.append(f"{shown} is {kind}, so it stays packed.")
         else:
-            self.handed.files.append(file)
+            self.files.append(file)
         return True
 
     def _add_checkpoints(self, top: Path, place: str, shown: str) -> None:
@@ -193,11 +181,11 @@ class Collector:
             for entry in sorted(entries, key=lambda entry: entry.name)[:MAX_CHECKPOINTS]:
                 if entry.is_file(follow_symlinks=False):
                     file = File(top, f"{place}/{entry.name}", f"{shown}/{entry.name}")
-                    self.handed.checkpoints.append(file)
+                    self.checkpoints.append(file)
 
     def _add_archive(self, file: File, level: int) -> None:
         if level >= MAX_LEVELS:
-            self.handed.notes.append(f"{file.shown} is in too many zip files, so it stays packed.")
+            self.notes.append(f"{file.shown} is in too many zip files, so it stays packed.")
             return
         try:
             content = file.read(MAX_ZIP)
@@ -205,12 +193,12 @@ class Collector:
                 raise Unpackable("is too large")
             target = self._new_folder()
             for name in unpack(content, target, self._room, file.name):
-                self.handed.links.append(f"{file.shown}/{name}")
+                self.links.append(f"{file.shown}/{name}")
         except OSError:
-            self.handed.notes.append(f"{file.shown} cannot be read.")
-            self.handed.unread = True
+            self.notes.append(f"{file.shown} cannot be read.")
+            self.unread = True
         except Unpackable as error:
-            self.handed.notes.append(f"{file.shown} {error}, so it stays packed.")
+            self.notes.append(f"{file.shown} {error}, so it stays packed.")
         else:
             self.add_folder(target, f"{file.shown}/", level + 1, file.packed or file)
 

@@ -25,9 +25,8 @@ from nbgrader.preprocessors import NbGraderPreprocessor
 from botschool.errors import BotschoolError
 from botschool.grading.copies.skeleton import BEGIN, skeleton
 from botschool.grading.declare.exercise import course_root, load_exercise, secret_for_others
-from botschool.grading.judge.submission import Submission, TaskResult
-from botschool.grading.notebook import marks, report
-from botschool.grading.run.confined import fork_server
+from botschool.grading.judge.submission import TaskResult
+from botschool.grading.notebook import graded, marks, report
 
 ANSWER, TEST = "task-", "test-"
 """Prefixes of the grade ids of answer cells and test cells; test-3-2_ranking tests task-3-2."""
@@ -159,13 +158,10 @@ class Grade(NbGraderPreprocessor):
         exercise.secret, _ = secret_for_others(course_root())
         name = resources["nbgrader"]["notebook"] + ".ipynb"
         path = Path(resources["metadata"]["path"]) / name
-        with (
-            fork_server(exercise.imports) as server,
-            Submission(path, server, sources, exercise.file, exercise=exercise) as submission,
-        ):
-            for count, cell in enumerate(tests, 1):
-                task = exercise.find(task_of(_grade_id(cell)))
-                _fill(cell, count, submission.grade(task).complete(), submission.banner)
+        tasks = [exercise.find(task_of(_grade_id(cell))) for cell in tests]
+        results = graded(exercise, path, sources, tasks)
+        for count, (cell, told) in enumerate(zip(tests, results, strict=True), 1):
+            _fill(cell, count, *told)
         return nb, resources
 
 

@@ -1,7 +1,8 @@
-"""Show all calls of a task with the answers of a submission and of our solution."""
+"""Show all calls of a task with both answers, or run its checks in a debugger's reach."""
 
 from __future__ import annotations
 
+import traceback
 from contextlib import closing
 from pathlib import Path
 from typing import Any
@@ -17,6 +18,8 @@ from botschool.grading.declare.same import Same
 from botschool.grading.declare.values import kind, show
 from botschool.grading.judge.submission import opened
 from botschool.grading.run.confined import fork_server
+from botschool.grading.run.debug import DirectStudent
+from botschool.grading.run.ours import ours_of
 from botschool.grading.run.student import Student
 
 MOST = 3
@@ -82,3 +85,22 @@ def _whole(value: Any) -> str:
     return f"{kind(value) if isinstance(value, np.ndarray) else f'a list of {len(value)}'}\n" + (
         f"               {text}"
     )
+
+
+def debug_task(exercise: Exercise, id: str, file: Path) -> None:
+    """Run a task's checks in this process, without limits and points."""
+    task = exercise.find(id)
+    with (
+        fork_server(exercise.imports) as server,
+        closing(ours_of(exercise, server)) as exercise.ours,
+        closing(DirectStudent(file)) as student,
+    ):
+        for _, name, check in task.checks:
+            try:
+                check(student)
+                print(f"passed: {name}")
+            except Wrong as error:
+                print(f"failed: {name}: {error}")
+            except Exception:
+                print(f"failed: {name}:")
+                traceback.print_exc()
