@@ -19,7 +19,7 @@ from botschool.grading.classes import wall
 from botschool.grading.classes.choice import Wanted, find_submissions
 from botschool.grading.classes.export import one_person, read_export
 from botschool.grading.classes.files import numbered_folders
-from botschool.grading.classes.times import told_by
+from botschool.grading.classes.layouts import told_by
 from botschool.grading.classes.wall import Broken, walled
 from exports import of_tar, written, zipped
 from running import call

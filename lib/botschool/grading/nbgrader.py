@@ -72,7 +72,7 @@ def make_course(root: Path, folder: Path) -> list[Path]:
         raise BotschoolError(
             "nbgrader and jupytext are missing: install them with pip install 'botschool[course]'."
         ) from None
-    numbers = [n for n in exercise_numbers(root) if list(_solutions(root, n))]
+    numbers = [n for n in exercise_numbers(root) if _solution(root, n).is_file()]
     if not numbers:
         raise BotschoolError(
             f"{root} holds no solutions to make notebooks of: run this in the repository."
@@ -80,7 +80,7 @@ def make_course(root: Path, folder: Path) -> list[Path]:
     texts = {}
     for number in numbers:
         exercise = load_exercise(number, root)
-        (solution,) = _solutions(root, number)
+        solution = _solution(root, number)
         made = nbformat.writes(notebook(solution.read_text(encoding="utf-8"), exercise)) + "\n"
         own = {f"{solution.stem}.ipynb": made} | _beside(folder_of(number, root), exercise)
         texts |= {f"source/ex{number:02d}/{inner}": text for inner, text in own.items()}
@@ -221,8 +221,6 @@ def _links(folder: Path) -> list[str]:
     return [path for path in found if os.path.islink(path)]
 
 
-def _solutions(root: Path, number: int) -> list[Path]:
-    """Return the exercise's solution file in a list; [] if there is none."""
+def _solution(root: Path, number: int) -> Path:
     folder = root / "solutions" / folder_of(number, root).name
-    path = folder / load_exercise(number, root).file
-    return [path] if path.is_file() else []
+    return folder / load_exercise(number, root).file

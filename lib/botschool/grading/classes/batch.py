@@ -148,11 +148,11 @@ class Grades:
         try:
             key = self._key(job)
         except Wrong as error:
-            return self._nothing(job, str(error), not isinstance(error, Unread))
+            return self.nothing(job, str(error), not isinstance(error, Unread))
         except OSError as error:
-            return self._nothing(job, f"Cannot read a file ({error.strerror}).")
+            return self.nothing(job, f"Cannot read a file ({error.strerror}).")
         except Exception as error:
-            return self._nothing(job, f"Cannot read the files ({type(error).__name__}: {error}).")
+            return self.nothing(job, f"Cannot read the files ({type(error).__name__}: {error}).")
         place = self._cache / f"{key}.json"
         if not self._fresh:
             with contextlib.suppress(OSError):
@@ -176,7 +176,7 @@ class Grades:
         try:
             exercise.require([*map(exercise.find, job.tasks)] or exercise.tasks)
         except BotschoolError as error:
-            return self._nothing(job, str(error))
+            return self.nothing(job, str(error))
         times = [1 + bool(task.needs) for task in exercise.tasks]  # as often as it may be run
         seconds = [n * (task.seconds + 5) for n, task in zip(times, exercise.tasks, strict=True)]
         limit = WALL_FACTOR * sum(seconds) + SPARE_SECONDS
@@ -208,41 +208,35 @@ class Grades:
                 process.kill()
                 process.communicate()
                 reason = f"The grading took longer than {limit:.0f} seconds."
-                return self._nothing(job, reason) if alone else None
+                return self.nothing(job, reason) if alone else None
             finally:
                 self._running.discard(process)
             if process.returncode == 0:
                 with contextlib.suppress(ValueError, TypeError, RecursionError):
-                    return self._nothing(job, "") | {"graded": True} | json.loads(out)
-                return self._nothing(job, "The grader's result is damaged.")
+                    return self.nothing(job, "") | {"graded": True} | json.loads(out)
+                return self.nothing(job, "The grader's result is damaged.")
             if not alone and (process.returncode == MACHINE_FAULT or process.returncode < 0):
                 return None
             lines = errors.decode(errors="replace").strip().splitlines()
             reason = lines[-1] if lines else f"exit code {process.returncode}"
             if process.returncode == MACHINE_FAULT:
-                return self._nothing(job, reason)
-            return self._nothing(job, f"The grader failed: {reason}.")
+                return self.nothing(job, reason)
+            return self.nothing(job, f"The grader failed: {reason}.")
         finally:
             os.close(lifeline)
             os.close(ours)
             remove_tree(temporary)
 
-    def _nothing(self, job: Job, problem: str, graded: bool = False) -> dict[str, Any]:
-        return self.nothing(job.number, problem, graded, job.tasks)
-
-    def nothing(
-        self, number: Number, problem: str, graded: bool = True, tasks: tuple[str, ...] = ()
-    ) -> dict[str, Any]:
+    def nothing(self, job: Job, problem: str, graded: bool = False) -> dict[str, Any]:
         """Return a result without points.
 
         graded: whether the submission deserves no points; otherwise it was not graded.
-        tasks: the tasks to grade; () for all.
         """
-        exercise = self.exercise(number)
-        asked = [task for task in exercise.tasks if not tasks or task.id in tasks]
+        exercise = self.exercise(job.number)
+        asked = [task for task in exercise.tasks if not job.tasks or task.id in job.tasks]
         results = [TaskResult(task.id, task.title, 0, task.max_points, "") for task in asked]
         told = to_record(Result(exercise.number, exercise.title, results))
-        return told | {"exercise": number, "problem": problem, "graded": graded}
+        return told | {"exercise": job.number, "problem": problem, "graded": graded}
 
     def _key(self, job: Job) -> str:
         digest = content_digest(job.file)

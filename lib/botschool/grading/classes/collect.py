@@ -150,7 +150,7 @@ def _grade(
     done = {place: found[job] for place, job in jobs.items()}
     for row in register.rows:
         for number, tasks in asked.items():
-            nothing = partial(grades.nothing, number, tasks=tasks)
+            nothing = partial(grades.nothing, Job(number, Path(), tasks))
             result = register.result(row, number, done, nothing)
             code = _code(result["file"]) if number in skeletons and result.get("file") else ""
             row.results.append(result | {"code": code, "skeleton": skeletons.get(number, "")})

@@ -105,11 +105,12 @@ def grade_all_command(
 def _asked(text: str, root: Path, laboratories: Mapping[Number, Laboratory]) -> Asked:
     """Return what to grade. Raises BotschoolError."""
     if text.strip() == "all":
-        return dict(selected(text, root)) | dict.fromkeys(laboratories, ())
+        every: Asked = dict(selected(text, root).items())
+        return every | dict.fromkeys(laboratories, ())
     parts = [part.strip().lower() for part in text.split(",")]
     labs = [part for part in parts if part.startswith("lab")]
     exercises = ",".join(part for part in parts if part not in labs)
-    asked: Asked = dict(selected(exercises, root)) if exercises or not labs else {}
+    asked: Asked = dict(selected(exercises, root).items() if exercises or not labs else ())
     for name in labs:
         key = f"lab{name[3:].lstrip('0')}"
         if key not in laboratories:

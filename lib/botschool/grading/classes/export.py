@@ -21,6 +21,8 @@ from botschool.grading.classes.candidate import Choice, Sought
 from botschool.grading.classes.files import File, Handed
 from botschool.grading.classes.layouts import (
     GRADESCOPE,
+    METADATA,
+    SUBMITTED,
     VERSION,
     attempts_of,
     clones_in,
@@ -29,12 +31,13 @@ from botschool.grading.classes.layouts import (
     is_class,
     is_clone,
     is_folder,
+    moment_of,
+    read_metadata,
     recognised,
     visible,
     without_tables,
     zips_a_class,
 )
-from botschool.grading.classes.times import METADATA, SUBMITTED, moment_of, read_metadata
 from botschool.grading.classes.unpack import DOWNLOAD, Room, Unpackable, unpack
 from botschool.grading.declare.checks import plain
 from botschool.grading.declare.exercise import Number
@@ -80,14 +83,15 @@ class Person:
         """Return the person's files, read at the first use."""
         handed = Handed(self.new_folder)
         for path, shown in self.sources:
-            before, handed.files = handed.files, []
+            top = path.absolute().parent
             if path.is_dir():
                 handed.add_folder(path)
+            elif shown:
+                handed.add_file(top, path.name, shown)
             else:
-                top, level = path.absolute().parent, 0 if shown else -1
-                handed.add_file(top, path.name, shown or path.name, level)
-                handed.files = handed.files if shown else _without_top(handed.files)
-            handed.files = before + handed.files
+                before, handed.files = handed.files, []
+                handed.add_file(top, path.name, path.name, level=-1)
+                handed.files = before + _without_top(handed.files)
         return handed
 
 

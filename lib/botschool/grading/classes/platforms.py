@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.batch import Grades, remarks, to_record
+from botschool.grading.classes.batch import Grades, Job, remarks, to_record
 from botschool.grading.classes.choice import find_in
 from botschool.grading.declare.exercise import (
     STATE,
@@ -57,7 +57,7 @@ def graded(number: int, place: Path, only_changed: bool = False) -> dict[str, An
     notes = [*choice.notes, *one.notes]
     if choice.file is None or (only_changed and not choice.changed):
         problem = choice.problem or f"Nothing was changed in {exercise.file} yet."
-        nothing = Grades(root).nothing(number, problem)
+        nothing = Grades(root).nothing(Job(number, place), problem, graded=True)
         tasks = [task | {"message": problem} for task in nothing["tasks"]]
         return nothing | {"tasks": tasks, "notes": notes}
     folder = (place if place.is_dir() else place.parent).resolve()

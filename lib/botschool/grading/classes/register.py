@@ -15,9 +15,9 @@ from botschool.grading.classes.candidate import Choice
 from botschool.grading.classes.export import Person
 from botschool.grading.classes.files import File, listed
 from botschool.grading.classes.identity import Known, Student, ask, letters
+from botschool.grading.classes.layouts import told_by
 from botschool.grading.classes.policy import moodle_moment
 from botschool.grading.classes.rules import Policy, tidy
-from botschool.grading.classes.times import told_by
 from botschool.grading.classes.wall import Broken, walled
 from botschool.grading.declare.exercise import Number, called
 
@@ -225,9 +225,9 @@ class Register(Members):
                 return any(_both_did(own[index], other) for other in found.get(at, ()))
 
             numbers = self._known.add(taken, section or "this download", clash=clash)
-            for one, entry, number in zip(own, entries, numbers, strict=True):
-                found.setdefault(number, []).append(one)
-                self._known.learn(number, entry)
+            for one, entry, at in zip(own, entries, numbers, strict=True):
+                found.setdefault(at, []).append(one)
+                self._known.learn(at, entry)
         return found
 
     def _join_groups(self) -> None:

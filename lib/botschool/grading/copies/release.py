@@ -110,33 +110,11 @@ def release(
             shutil.copy(wheel, made / WHEELS)
         _pack_answers(root, made, with_answers)
         pageless = _add_pages(made) if pages else ""
-        leaks = find_leaks(root, (path for path in made.rglob("*") if path.is_file()))
-        if leaks:
-            path, line = leaks[0]
-            raise BotschoolError(
-                f"{path.relative_to(made)} contains a part of a solution ('{line[:60]}'): "
-                "nothing was released. Remove that part and try again."
-            )
-        files = _digests(made)
-        skeletons = {
-            name: (made / name).read_text(encoding="utf-8")
-            for name in _skeletons_of(root)
-            if name in files
-        }
-        text = json.dumps({"files": files, "skeletons": skeletons}, indent=1, sort_keys=True)
-        (made / MANIFEST).write_text(text + "\n", encoding="utf-8")
+        files = _finish(root, made)
         if not target.is_dir() or not any(target.iterdir()):
-            made.chmod(0o755)
-            if target.is_dir():
-                target.rmdir()
-            made.rename(target)
-            unknown = ""
-            try:
-                if trusted:
-                    trust(target)
-            except BotschoolError as error:  # the copy still works in other places
-                unknown = str(error)
-            return Released(len(files), len(files), unknown=unknown, pageless=pageless)
+            return _placed(
+                made, target, Released(len(files), len(files), pageless=pageless), trusted
+            )
         try:
             done = _update(made, target, manifest, files)
             done.pageless = pageless
@@ -146,6 +124,35 @@ def release(
                 f"Cannot write {error.filename} ({error.strerror}): the copy is not up to "
                 "date yet, try again."
             ) from None
+
+
+def _finish(root: Path, made: Path) -> dict[str, str]:
+    """Write the manifest and return the digests. Raises BotschoolError for a part of a solution."""
+    for path, line in find_leaks(root, (path for path in made.rglob("*") if path.is_file()))[:1]:
+        raise BotschoolError(
+            f"{path.relative_to(made)} contains a part of a solution ('{line[:60]}'): "
+            "nothing was released. Remove that part and try again."
+        )
+    files = _digests(made)
+    names = [name for name in _skeletons_of(root) if name in files]
+    skeletons = {name: (made / name).read_text(encoding="utf-8") for name in names}
+    text = json.dumps({"files": files, "skeletons": skeletons}, indent=1, sort_keys=True)
+    (made / MANIFEST).write_text(text + "\n", encoding="utf-8")
+    return files
+
+
+def _placed(made: Path, target: Path, done: Released, trusted: bool) -> Released:
+    """Move a new copy to its place."""
+    made.chmod(0o755)
+    if target.is_dir():
+        target.rmdir()
+    made.rename(target)
+    try:
+        if trusted:
+            trust(target)
+    except BotschoolError as error:  # the copy still works in other places
+        done.unknown = str(error)
+    return done
 
 
 def _check(root: Path, target: Path) -> dict[str, str]:
