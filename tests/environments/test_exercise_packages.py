@@ -63,7 +63,7 @@ def test_an_exercise_declares_what_it_imports(number):
     (solution,) = (ROOT / "solutions").glob(f"ex{number:02d}_*")
     (folder,) = (ROOT / "exercises").glob(f"ex{number:02d}_*")
     names = set()
-    for path in (*solution.glob("*.py"), *folder.glob("test_*.py")):
+    for path in (*solution.glob("*.py"), *folder.glob("*.py")):
         names |= imported(path)
     assert not missing(names - BROUGHT, load_exercise(number, ROOT).extras)
 

@@ -1,13 +1,20 @@
 """Pictures of tasks, the page of an exercise, and what `botschool show` says."""
 
 import re
+import shutil
 
 import numpy as np
 import pytest
 
 from botschool.errors import BotschoolError
-from botschool.grading.declare.exercise import Exercise, exercise_numbers, load_exercise
+from botschool.grading.declare.exercise import (
+    PICTURES,
+    Exercise,
+    exercise_numbers,
+    load_exercise,
+)
 from botschool.grading.declare.picture import KINDS, Picture
+from botschool.grading.packed import pack
 from botschool.grading.report.album import captioned, write_album
 from botschool.grading.report.checkpoints import OPEN, RIGHT, WRONG, checkpoints
 from botschool.grading.report.drawing import Panel, chosen, draw, panels_of
@@ -282,6 +289,24 @@ def test_many_tasks_have_a_picture_and_every_file_a_caption():
     assert all(task.picture.says.endswith(".") and len(task.picture.says) > 20 for task in drawn)
     assert all(any(task.picture for task in each[:2]) for each in tasks.values())
     assert all(load_exercise(n, ROOT).captions for n in tasks)
+
+
+def test_pictures_lie_beside_the_grader_plain_or_packed(tmp_path, monkeypatch):
+    """They find its drivers; a student's own file of that name takes the pictures away, no more."""
+    monkeypatch.setenv("BOTSCHOOL_COURSE", str(tmp_path))
+    folder = next((ROOT / "exercises").glob("ex08_*"))
+    copy = shutil.copytree(folder, tmp_path / "exercises" / folder.name)
+    (grader,) = copy.glob("test_*.py")
+    solution = next((ROOT / "solutions").glob("ex08_*/*.py")).read_text()
+    grader.write_text(pack(grader.read_text(), solution))
+    exercise = load_exercise(8, tmp_path)
+    place = copy / exercise.file
+    place.write_text(solution)
+    (found,) = checkpoints(exercise, [exercise.find("8.6")], place)
+    assert found.state == RIGHT and found.panels[0].yours.shape == (60,)
+    (copy / PICTURES).write_text("LINE = 1\n")
+    exercise = load_exercise(8, tmp_path)
+    assert not exercise.captions and not any(task.picture for task in exercise.tasks)
 
 
 def test_the_report_names_the_command(capsys):

@@ -13,6 +13,7 @@ from typing import Any
 from botschool.errors import BotschoolError
 from botschool.grading.copies.skeleton import BEGIN, write_unedited
 from botschool.grading.declare.exercise import (
+    PICTURES,
     Exercise,
     course_root,
     exercise_numbers,
@@ -98,9 +99,9 @@ def _beside(folder: Path, exercise: Exercise) -> dict[str, str]:
     These are the packed grader, the text and the hints, as path from the notebook -> content.
     """
     found = {}
-    for path in sorted([*folder.glob("test_*.py"), *folder.glob("*.md")]):
+    for path in sorted([*folder.glob("test_*.py"), *folder.glob(PICTURES), *folder.glob("*.md")]):
         text = path.read_text(encoding="utf-8")
-        packed = path.suffix == ".py" and "unpack(" not in text
+        packed = path.name.startswith("test_") and "unpack(" not in text
         place = f"exercises/{folder.name}/{path.name}"
         found[place] = pack(text, exercise.references) if packed else text
     return found

@@ -54,6 +54,7 @@ def unpack(file: str, packed: str) -> Any:
     module.__file__ = file
     sys.modules[module.__name__] = module  # dataclasses look up their module
     exec(compile(source, name, "exec", dont_inherit=True), vars(module))
+    module.exercise.grader = module
     module.exercise.knows(solution, mistakes)
     return module.exercise
 

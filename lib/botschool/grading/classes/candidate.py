@@ -26,7 +26,7 @@ from botschool.grading.classes.texts import (
 from botschool.grading.classes.unpack import DATA, is_page
 from botschool.grading.copies.starting import original
 from botschool.grading.declare.checks import plain
-from botschool.grading.declare.exercise import Number, folder_of
+from botschool.grading.declare.exercise import PICTURES, Number, folder_of
 from botschool.sandbox.errors import CannotRead, Refused
 from botschool.sandbox.scratch import MAX_COPIED, MAX_COPIED_FILES, regular_files
 
@@ -195,7 +195,8 @@ def _others(exercises: Path, own: str) -> dict[str, set[str]]:
     """Return the names of the other exercises' files, each with what the file defines."""
     found = {}
     for path in exercises.glob("ex[0-9][0-9]_*/*.py"):
-        if path.parent.name != own and not path.name.startswith("test_"):
+        course = path.name.startswith("test_") or path.name == PICTURES
+        if path.parent.name != own and not course:
             text = path.read_text(encoding="utf-8", errors="replace")
             found[squashed(path.stem)] = names_in(text)
     return found

@@ -33,6 +33,8 @@ POINTS = 100
 """Points of every exercise."""
 ABSENT = "botschool.grading.run.absent"
 """The module that replaces packages which are not installed but which a submission imports."""
+PICTURES = "pictures.py"
+"""The file beside a grader that says what `botschool show` draws."""
 STANDS_IN = ("pybullet",)
 """Extras for which something stands in where they are not installed."""
 
@@ -68,10 +70,6 @@ class Task:
     checks: list[tuple[int, str, Check]] = field(default_factory=list)
     picture: Picture | None = None
     """How its answers are drawn, if there is something to see in them."""
-
-    def draws(self, says: str, x: str = "", y: str = "", **how: Any) -> None:
-        """Give the task a picture; what it takes is in `Picture`."""
-        self.picture = Picture(says, x, y, **how)
 
     def check(self, points: int) -> Callable:
         """Return a decorator for a check: a function of a Student that raises Wrong if it fails."""
@@ -131,6 +129,8 @@ class Exercise:
         """A digest of the submission: under a secret, the seeds depend on it, too."""
         self.references = ""
         """A Python file with our own functions of the tasks that others need (references.py)."""
+        self.grader: Any = None
+        """The module that declares the exercise: its drivers and inputs."""
         self.captions: dict[str, str] = {}
         """What to look for in the files that the finished exercise makes, by their names."""
         self.known = Known(number)
@@ -281,17 +281,28 @@ def load_exercise(number: int, root: Path | None = None) -> Exercise:
     graders = sorted(folder.glob("test_*.py"))
     if not graders:
         raise BotschoolError(f"{folder} holds no grader file test_*.py: restore it.")
-    name = f"grader_{number}"
-    spec = importlib.util.spec_from_file_location(name, graders[0])
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module  # dataclasses look their module up
-    spec.loader.exec_module(module)
+    module = _module(f"grader_{number}", graders[0])
     exercise = module.exercise
+    exercise.grader = exercise.grader or module
+    if (folder / PICTURES).is_file():
+        shown = _module(f"pictures_{number}", folder / PICTURES)
+        exercise.captions = vars(shown).get("CAPTIONS", {})  # a student's own file has none
+        for id, picture in vars(shown).get("PICTURES", {}).items():
+            exercise.find(id).picture = picture
     root = root or course_root()
     solution = root / "solutions" / folder.name / exercise.file
     if not exercise.known.solution and solution.is_file():
         exercise.knows(solution.read_text(encoding="utf-8"), case_text(root, number))
     return exercise
+
+
+def _module(name: str, file: Path) -> Any:
+    """Run a file of the course and return it as a module."""
+    spec = importlib.util.spec_from_file_location(name, file)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module  # dataclasses look their module up
+    spec.loader.exec_module(module)
+    return module
 
 
 def selected(text: str, root: Path | None = None) -> dict[int, tuple[str, ...]]:

@@ -23,6 +23,11 @@ OVER = "over"
 """The name of the values of a horizontal axis in what `of` returns."""
 
 
+def all_over(module: Any, name: str, inputs: Any, *more: Any) -> list[list[float]]:
+    """{0}(observation), all over a plane"""
+    return [[float(getattr(module, name)(each, *more)) for each in row] for row in inputs]
+
+
 @dataclass(frozen=True)
 class Picture:
     """How the answers of a task are drawn (docs/specification.md, "Pictures of tasks")."""
@@ -35,9 +40,9 @@ class Picture:
     kind: str = ""
     of: Callable[..., Any] | None = None
     """Returns what is drawn, of an answer and its arguments: an array, or names and arrays."""
-    call: tuple[Any, ...] | Callable[[], tuple[Any, ...]] = ()
+    call: tuple[Any, ...] | Callable[[Any], tuple[Any, ...]] = ()
     """A function's name, or a driver, and arguments that show more than the inputs of a check; or
-    a function that returns them, if that takes time or reads files."""
+    a function of the grader's module that returns them."""
     extent: tuple[float, float, float, float] | None = None
     """Left, right, bottom and top of the axes."""
 

@@ -67,6 +67,11 @@ NOTES = {
 }
 
 
+def seed_of(rng: np.random.Generator) -> int:
+    """Draw a seed for a function of the submission."""
+    return int(rng.integers(1, 100_000))
+
+
 def same(
     task: Task,
     points: int,
@@ -75,6 +80,7 @@ def same(
     parts: tuple[str, ...] = (),
     view: Callable[..., Any] | None = None,
     off: dict[str, str] | None = None,
+    name: str = "",
 ) -> Callable[[Inputs], Inputs]:
     """Return a decorator of a function of a random generator that yields inputs.
 
@@ -87,12 +93,15 @@ def same(
     view: returns what is compared, of an answer and its arguments, where chance decides the rest.
     It runs in the grader's process, on our answer, too; it raises Wrong for a wrong form.
     off: names from KEEPS, and the reason why a right answer need not keep this.
+    name: the check's, where several have the same inputs; "" for that of the function.
     """
 
     def keep(inputs: Inputs) -> Inputs:
         if wrong := set(off or ()) - set(KEEPS):
             raise ValueError(f"{inputs.__name__}: off names {wrong}; there are {list(KEEPS)}")
-        task.check(points)(Same(task, what, inputs, tolerance, parts, view, off or {}))
+        check = Same(task, what, inputs, tolerance, parts, view, off or {})
+        check.__name__ = name or inputs.__name__
+        task.check(points)(check)
         return inputs
 
     return keep

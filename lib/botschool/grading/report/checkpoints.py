@@ -84,7 +84,8 @@ def _drawn(task: Task, picture: Picture, submission: Submission) -> Drawn:
             message = failed or next((call.message for call in wrong if call.message), "")
             panels: list[Panel] = []
             if picture.call:
-                what, *given = picture.call() if callable(picture.call) else picture.call
+                call = picture.call
+                what, *given = call(task.exercise.grader) if callable(call) else call
                 own = Same(task, what, lambda rng: [tuple(given)], 1e-9, (), None, {})
                 own.__name__ = ""
                 panels = _panels(next(_calls(own, student)), picture, right)

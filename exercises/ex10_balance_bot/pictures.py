@@ -1,0 +1,38 @@
+"""What `botschool show 10` draws of each task, and what to look for in the files made."""
+
+import numpy as np
+
+from botschool.course.robots import random_robot
+from botschool.grading import Picture
+
+CAPTIONS = {
+    "balance.mp4": (
+        "Evolved in an environment that was built here. The robot leans to where it wants to go, "
+        "and drives after itself."
+    ),
+    "balance.png": (
+        "How far the robot leans in twenty episodes of each controller. Lines that end early have "
+        "fallen."
+    ),
+}
+PICTURES = {}
+PICTURES["10.1"] = Picture(
+    "What each link of a robot weighs.",
+    "", "mass (kg)",
+    call=lambda grader: ("describe", random_robot(np.random.default_rng(1), 6, True)),
+    of=lambda answer, *_: dict(sorted(answer["links"].items())),
+)  # fmt: skip
+PICTURES["10.5"] = Picture(
+    "Each action adds to the wheels' speed, which stays below 24.6, and turns back at once.",
+    "step", "speed (rad/s)", kind="curves", of=lambda answer, *_: {"speed": answer["self.speed"]},
+    call=lambda grader: (
+        grader.on_stage, "drive(), actions", 0.1, [0.0, 0.0], 0.0, [1.0] * 30 + [-1.0] * 40
+    ),
+)  # fmt: skip
+PICTURES["10.6"] = Picture(
+    "A robot whose wheels stand still falls; its reward falls with its inclination.",
+    "step", "", kind="curves",
+    call=lambda grader: (grader.on_stage, "step(), actions", 0.05, [0.0, 0.0], 0.0, [0.0] * 80),
+    of=lambda answer, *_: {"inclination, angular velocity, wheels": answer["the observation"],
+                           "reward": answer["the reward"]},
+)  # fmt: skip
