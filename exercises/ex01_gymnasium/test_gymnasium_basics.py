@@ -9,33 +9,13 @@ actions 22. All else compares with our solution.
 import gymnasium
 import numpy as np
 
-from botschool.grading import Exercise, Student, Wrong, expect, same, show
+from botschool.grading import Exercise, Student, Wrong, expect, same, seed_of, show
 
 exercise = Exercise(1, "Gymnasium", file="gymnasium_basics.py")
-exercise.captions = {
-    "random_agents.png": (
-        "Sixty episodes of a random agent in each of five problems. In which does it *ever* do "
-        "better than usual? Where it never does, it has nothing to learn from."
-    ),
-    "balance.mp4": (
-        "A rule that was written by hand keeps the pole up. Watch the cart: what does the rule not "
-        "look at?"
-    ),
-}
 CLASSIC = "gymnasium.envs.classic_control"
 
 
-def seed_of(rng) -> int:
-    return int(rng.integers(1, 100_000))
-
-
-# ------------------------------------------------------------------- 1.1
 description = exercise.task("1.1", "What an agent sees and does")
-description.draws(
-    "Each bar is the lowest or highest value of one of the six numbers that Acrobot observes.",
-    "observed number", "value", kind="bars", call=("describe", "Acrobot-v1"),
-    of=lambda answer, *_: {side: answer["observation"][side] for side in ("low", "high")},
-)  # fmt: skip
 
 
 @same(description, 3, "describe", 1e-6)
@@ -61,28 +41,11 @@ def spaces(rng):
         yield (box, discrete, limit) if count % 2 else (discrete, box, limit)
 
 
-@same(description, 5, described, 1e-6, parts=("observation",))
-def observations(rng):
-    yield from spaces(rng)
+same(description, 5, described, 1e-6, parts=("observation",), name="observations")(spaces)
+same(description, 5, described, 1e-6, parts=("action",), name="actions")(spaces)
+same(description, 2, described, parts=("maxsteps",), name="time_limit")(spaces)
 
-
-@same(description, 5, described, 1e-6, parts=("action",))
-def actions(rng):
-    yield from spaces(rng)
-
-
-@same(description, 2, described, parts=("maxsteps",))
-def time_limit(rng):
-    yield from spaces(rng)
-
-
-# ------------------------------------------------------------------- 1.2
 episode = exercise.task("1.2", "A random episode")
-episode.draws(
-    "The four numbers that a random agent observes until the pole falls: the last states run away.",
-    "step", "observation", kind="curves", call=("random_episode", "CartPole-v1", 3, 1000),
-    of=lambda answer, *_: answer["observations"],
-)  # fmt: skip
 
 
 def recorded(answer, *_):
@@ -136,31 +99,11 @@ def ends_twice(rng):
         yield steps, steps, seed_of(rng)
 
 
-# ------------------------------------------------------------------- 1.3
 cartpole = exercise.task(
     "1.3",
     "The reward of CartPole",
     refused=tuple(f"{CLASSIC}.cartpole:CartPole{kind}Env.step" for kind in ("", "Vector")),
 )
-
-
-def all_over(module, name, observations, *more):
-    """{0}(observation), all over a plane"""
-    return [[float(getattr(module, name)(each, *more)) for each in row] for row in observations]
-
-
-def plane(across, upwards, *columns):
-    """Observations, (rows, columns, 4); columns: of these, where the two numbers of a place go."""
-    observed = np.zeros((len(upwards), len(across), 4))
-    observed[..., columns] = np.stack(np.meshgrid(across, upwards), axis=-1)
-    return observed
-
-
-cartpole.draws(
-    "An episode goes on in the dark rectangle only: within 2.4 m and 12 degrees.",
-    "cart's position (m)", "pole's angle (rad)", kind="heat", extent=(-3, 3, -0.3, 0.3),
-    call=(all_over, "fallen", plane(np.linspace(-3, 3, 41), np.linspace(-0.3, 0.3, 31), 0, 2)),
-)  # fmt: skip
 
 
 def truth(answer, *_):
@@ -204,7 +147,6 @@ def gives_the_rewards_of_gymnasium(rng):
     yield np.array([0, 0, -0.2096, 0]), 1
 
 
-# ------------------------------------------------------------------- 1.4
 pendulum = exercise.task(
     "1.4", "The reward of Pendulum", refused=(f"{CLASSIC}.pendulum:PendulumEnv.step",)
 )
@@ -216,15 +158,6 @@ def swings(rng, *torques):
         angle = rng.uniform(0.1, 3) * rng.choice([-1, 1])
         seen = np.float32([np.cos(angle), np.sin(angle), rng.uniform(-7, 7)])
         yield seen, np.float32([torque])
-
-
-ANGLES, SPEEDS = np.meshgrid(np.linspace(-3.1, 3.1, 41), np.linspace(-8, 8, 31))
-pendulum.draws(
-    "The reward is highest, 0, upright and at rest, and falls with angle and speed to all sides.",
-    "angle (rad), 0 is upright", "speed (rad/s)", kind="heat", extent=(-3.1, 3.1, -8, 8),
-    call=(all_over, "pendulum_reward", np.stack([np.cos(ANGLES), np.sin(ANGLES), SPEEDS], -1),
-          np.ones(1)),
-)  # fmt: skip
 
 
 @same(pendulum, 6, "pendulum_reward", 1e-4)
@@ -245,7 +178,6 @@ def cuts_the_torque(rng):
     yield from swings(rng, *rng.uniform(2.1, 3, 4), *rng.uniform(-3, -2.1, 4))
 
 
-# ------------------------------------------------------------------- 1.5
 balancing = exercise.task("1.5", "Balance the pole")
 EPISODES, STEPS = 20, 200
 
@@ -266,13 +198,6 @@ def actions_of(answer, observations):
             alone = "the action must depend on the observation alone, without memory or chance"
             raise Wrong(f"{show(observation)} gives {one}, then {other}, but {alone}.")
     return [int(each) for each in actions]
-
-
-balancing.draws(
-    "A line parts the states in which your rule pushes to the left from those to the right.",
-    "pole's angle (rad)", "pole's speed (rad/s)", kind="heat", extent=(-0.2, 0.2, -2, 2),
-    call=(all_over, "balance", plane(np.linspace(-0.2, 0.2, 41), np.linspace(-2, 2, 31), 2, 3)),
-)  # fmt: skip
 
 
 @same(balancing, 4, acted, view=actions_of)
@@ -315,13 +240,7 @@ def balances(student: Student):
     expect_balanced(student, 195)
 
 
-# ------------------------------------------------------------------- 1.6
 comparison = exercise.task("1.6", "Random agents compared", seconds=30, needs=("1.2",))
-comparison.draws(
-    "The mean returns of random agents differ as the rewards do: no two problems share a scale.",
-    "", "mean return", call=("compare", ["CartPole-v1", "Acrobot-v1", "Pendulum-v1"], 3, 1),
-    of=lambda rows, *_: {row["environment"]: row["mean"] for row in rows},
-)  # fmt: skip
 
 
 def column(name):
@@ -344,19 +263,9 @@ def tables(rng):
         yield names, episodes, seed_of(rng)
 
 
-@same(comparison, 6, "compare", 1e-6, view=column("mean"))
-def mean_return(rng):
-    yield from tables(rng)
-
-
-@same(comparison, 4, "compare", 1e-6, view=column("deviation"))
-def deviation_of_returns(rng):
-    yield from tables(rng)
-
-
-@same(comparison, 2, "compare", 1e-6, view=column("length"))
-def mean_length(rng):
-    yield from tables(rng)
+same(comparison, 6, "compare", 1e-6, view=column("mean"), name="mean_return")(tables)
+same(comparison, 4, "compare", 1e-6, view=column("deviation"), name="deviation_of_returns")(tables)
+same(comparison, 2, "compare", 1e-6, view=column("length"), name="mean_length")(tables)
 
 
 def compared(module, steps, episodes, seed):

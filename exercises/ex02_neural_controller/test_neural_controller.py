@@ -8,27 +8,13 @@ against a loop over our `forward`; less than half of its processor time is asked
 
 import numpy as np
 
-from botschool.grading import Exercise, Student, expect, expect_array, expect_fields, same
+from botschool.grading import Exercise, Student, expect, expect_array, expect_fields, same, seed_of
 
 CLASSIC = "gymnasium.envs.classic_control"
 exercise = Exercise(2, "A neural controller", file="neural_controller.py", imports=(CLASSIC,))
-exercise.captions = {
-    "random_networks.png": (
-        "Two hundred random networks in each problem. Most are useless; look for the few on the "
-        "right, which nobody has thought about."
-    ),
-    "luckiest.mp4": (
-        "The luckiest of the 200, found without any learning. Watch how it follows the pole, "
-        "always a little late."
-    ),
-}
 CONTINUOUS = {"MountainCarContinuous-v0": (2, 5, 1), "Pendulum-v1": (3, 5, 1)}
 LAYERS = {"CartPole-v1": (4, 5, 2), "Acrobot-v1": (6, 5, 3)} | CONTINUOUS
 """Inputs, hidden neurons and outputs in each environment."""
-
-
-def seed_of(rng) -> int:
-    return int(rng.integers(1, 100_000))
 
 
 def network_of(rng, ninputs, nhiddens, noutputs, many=(), biases=0.6, weights=0.6):
@@ -41,13 +27,7 @@ def network_of(rng, ninputs, nhiddens, noutputs, many=(), biases=0.6, weights=0.
     }
 
 
-# ------------------------------------------------------------------- 2.1
 drawing = exercise.task("2.1", "The parameters")
-drawing.draws(
-    "Both layers' weights spread around 0 as a bell, nearly all between -0.3 and 0.3.",
-    "weight", "share", kind="histogram", call=("parameters", 130, 150, 140, 1),
-    of=lambda answer, *_: {name: answer[name] for name in ("W1", "W2")},
-)  # fmt: skip
 
 
 def arrays_of(answer, *_):
@@ -111,23 +91,7 @@ def every_weight_is_drawn_and_the_seed_decides(rng):
     yield from ((layers, seed_of(rng)) for layers in ([5, 12, 5], [6, 6, 6]))
 
 
-# ------------------------------------------------------------------- 2.2
 passing = exercise.task("2.2", "From observation to outputs")
-
-
-def swept(module, network, observations):
-    """forward(network, observation), while one observed number moves,"""
-    return [module.forward(network, each) for each in observations]
-
-
-SWEEP = np.linspace(-4, 4, 81)
-EXAMPLE = network_of(np.random.default_rng(4), 4, 5, 2, weights=1.5)
-passing.draws(
-    "Two outputs while the first observed number moves: soft steps, which tanh keeps within 1.",
-    "first observed number", "output", kind="curves",
-    call=(swept, EXAMPLE, np.stack([SWEEP, *np.zeros((3, 81))], axis=1)),
-    of=lambda answer, *_: {"outputs": answer, "over": SWEEP},
-)  # fmt: skip
 
 
 def passed(rng, **options):
@@ -140,9 +104,7 @@ def weights_and_tanh(rng):
     yield from passed(rng, biases=0)
 
 
-@same(passing, 5, "forward", 1e-5)
-def biases_count(rng):
-    yield from passed(rng)
+same(passing, 5, "forward", 1e-5, name="biases_count")(passed)
 
 
 @same(passing, 4, "forward", 1e-5)
@@ -151,7 +113,6 @@ def large_sums_saturate(rng):
     yield from passed(rng, weights=3000)  # e to the power of some is infinite
 
 
-# ------------------------------------------------------------------- 2.3
 counting = exercise.task("2.3", "As many neurons as the environment needs")
 
 
@@ -199,7 +160,6 @@ def counts_numbers_of_an_action(rng):
     yield from sized(rng, -1, -1, -1)
 
 
-# ------------------------------------------------------------------- 2.4
 acting = exercise.task("2.4", "From outputs to an action")
 TOGETHER = {"changes": "the numbers of outputs, limits and choices belong together"}
 
@@ -214,14 +174,6 @@ def acted(module, outputs, space):
     else:
         made = spaces.Box(*(numpy.float32(space[side]) for side in ("low", "high")))
     return [[module.act(y, made) for y in outputs], outputs]
-
-
-acting.draws(
-    "The action follows the output along a line, from the lowest torque, -2, to the highest, 2.",
-    "output", "action", kind="curves",
-    call=(acted, np.linspace(-1, 1, 21)[:, None], {"low": [-2.0], "high": [2.0]}),
-    of=lambda answer, outputs, space: {"action": answer[0], "over": np.ravel(outputs)},
-)  # fmt: skip
 
 
 def actions_of(answer, outputs, space):
@@ -259,15 +211,7 @@ def outputs_are_stretched(rng):
         yield rng.uniform(-1, 1, (4, size)), limits
 
 
-# ------------------------------------------------------------------- 2.5
 episodes = exercise.task("2.5", "An episode", needs=("2.2", "2.4"))
-
-
-episodes.draws(
-    "The torque in each step of an episode: a random network pushes as it observes.",
-    "step", "torque", kind="curves", of=lambda answer, *_: {"actions": answer["actions"]},
-    call=("run_episode", "Pendulum-v1", network_of(np.random.default_rng(1), 3, 5, 1), 1, 200),
-)  # fmt: skip
 
 
 def episode_of(answer, *_):
@@ -303,7 +247,6 @@ def sums_the_rewards(rng):
         yield lived(rng, name, 10)
 
 
-# ------------------------------------------------------------------- 2.6
 measuring = exercise.task("2.6", "Fitness", seconds=30, needs=("2.5",))
 
 
@@ -331,7 +274,6 @@ def mean_of_other_returns(rng):
         yield seeded(rng, "Pendulum-v1", count, maxsteps)
 
 
-# ------------------------------------------------------------------- 2.7
 batching = exercise.task("2.7", "Many networks at once")
 NO_CUTS = dict.fromkeys(("square", "one"), "networks and observations are of one number")
 
@@ -339,13 +281,6 @@ NO_CUTS = dict.fromkeys(("square", "one"), "networks and observations are of one
 def stacked(rng, *sizes, **options):
     for n, *layers in sizes:
         yield network_of(rng, *layers, many=(n,), **options), rng.normal(size=(n, layers[0]))
-
-
-batching.draws(
-    "Each row is a network, each column an output: all of them come from one call.",
-    "output", "network", kind="heat",
-    call=("forward_batch", *next(stacked(np.random.default_rng(1), (12, 4, 5, 3)))),
-)  # fmt: skip
 
 
 @same(batching, 7, "forward_batch", 1e-4, off=NO_CUTS)
@@ -395,15 +330,7 @@ def is_quicker_than_a_loop(student: Student):
     expect(batch < loop / 2, f"{said} asked for. A list comprehension is a loop, too.")
 
 
-# ------------------------------------------------------------------- 2.8
 searching = exercise.task("2.8", "The luckiest network", seconds=40, needs=("2.1", "2.3", "2.6"))
-
-
-searching.draws(
-    "Thirty random networks, the luckiest first: most let the pole fall at once.",
-    "rank", "fitness (steps)", kind="curves", call=("random_search", "CartPole-v1", 30, 5, 1),
-    of=lambda answer, *_: {"fitness": np.sort(answer["fitness"])[::-1]},
-)  # fmt: skip
 
 
 def searched(module, name, nnetworks, seed, layers):

@@ -20,28 +20,10 @@ from itertools import pairwise
 import numpy as np
 
 from botschool.course import Robot
-from botschool.grading import Exercise, Student, expect, expect_array, expect_fields, same
+from botschool.grading import Exercise, Student, expect, expect_array, expect_fields, same, seed_of
 
 exercise = Exercise(3, "Evolution strategy", file="evolution_strategy.py")
-exercise.captions = {
-    "curves.png": (
-        "Three runs of evolution on Pendulum. Where the band is wide, some have found the trick, "
-        "and others have not."
-    ),
-    "pendulum.mp4": (
-        "Evolved from random numbers. The motor is too weak to lift the pendulum: watch how it "
-        "swings *away* from its goal first, to gather speed."
-    ),
-    "cartpole.mp4": (
-        "The same strategy, another problem. Watch the ten neurons: which of them change before "
-        "the cart turns?"
-    ),
-}
 TOOL = ("botschool.evolution.algorithms.sss:SSS.tell",)
-
-
-def seed_of(rng) -> int:
-    return int(rng.integers(1, 100_000))
 
 
 def same_rows(some: np.ndarray, others: np.ndarray) -> np.ndarray:
@@ -58,12 +40,7 @@ def in_common(some: np.ndarray, others: np.ndarray) -> int:
     return int(same_rows(some, others).any(axis=1).sum())
 
 
-# ------------------------------------------------------------------- 3.1
 initial = exercise.task("3.1", "The initial population")
-initial.draws(
-    "Each row is an individual: its biases, on the left, are 0, its weights small and random.",
-    "parameter", "individual", kind="heat", call=("initial_population", 12, 5, 30, 1),
-)  # fmt: skip
 
 
 def parts_of(answer, popsize, nbiases, nweights, seed):
@@ -130,13 +107,7 @@ def seed_decides(rng):
     yield 40, seed_of(rng)
 
 
-# ------------------------------------------------------------------- 3.2
 ranking = exercise.task("3.2", "Ranking")
-ranking.draws(
-    "In the order of their ranks, the individuals' fitness only falls.",
-    "rank", "fitness", kind="curves", of=lambda answer, fitness: fitness[np.array(answer, int)],
-    call=("rank", np.round(np.random.default_rng(1).normal(size=30), 1)),
-)  # fmt: skip
 
 
 @same(ranking, 6, "rank")
@@ -154,7 +125,6 @@ def equals_keep_their_order(rng):
     yield rng.integers(0, 3, size=90).astype(float)
 
 
-# ------------------------------------------------------------------- 3.3
 following = exercise.task("3.3", "The next population", needs=("3.2",), refused=TOOL)
 ZEROS = 8
 """Parameters that are 0 in the whole population, as all biases are at first."""
@@ -170,13 +140,6 @@ def steps(module, population, fitness, mutrate, seed):
     for each in (rng, numpy.random.default_rng(seed)):
         after.append(module.next_population(before.copy(), same.copy(), mutrate, each))
     return [numpy.array(each, dtype=float) for each in after], unchanged
-
-
-following.draws(
-    "The new population: the better half where it was, and a copy near each of its individuals.",
-    "first parameter", "second parameter", kind="points", of=lambda answer, *_: answer[0][0],
-    call=(steps, np.random.default_rng(2).normal(size=(20, 2)), np.arange(20.0), 0.1, 1),
-)  # fmt: skip
 
 
 def noise_of(after, better):
@@ -256,7 +219,6 @@ def noise_is_gaussian(rng):
         yield step(rng, 60, mutrate, max(1, 20 * mutrate), 600)
 
 
-# ------------------------------------------------------------------- 3.4
 loop = exercise.task("3.4", "The loop", needs=("3.2", "3.3"), refused=TOOL)
 
 
@@ -274,20 +236,6 @@ def evolved(module, name, population, generations, mutrate, seed, least):
 
     run = getattr(module, name)(evaluate, population, generations, mutrate, seed)
     return [run, calls, bool(numpy.array_equal(population, before))]
-
-
-def distances(answer, *_):
-    """The best individual's distance from the goal, generation by generation."""
-    populations = [np.atleast_2d(population) for population, _ in answer[1]]
-    goal = np.linspace(-1, 1, populations[0].shape[1])
-    return {"distance": [((each - goal) ** 2).mean(axis=1).min() for each in populations]}
-
-
-loop.draws(
-    "The best individual comes nearer to the goal, and never loses what it has: the curve falls.",
-    "generation", "distance of the best from the goal", kind="curves", of=distances,
-    call=(evolved, "evolve", np.random.default_rng(1).normal(size=(10, 8)), 60, 0.1, 1, 0.0),
-)  # fmt: skip
 
 
 def run_of(answer, population, least):
@@ -411,13 +359,7 @@ def selects_and_varies(rng):
     yield loop_of(rng, "evolve", (2, 250), 60, 0.4)
 
 
-# ------------------------------------------------------------------- 3.5
 climber = exercise.task("3.5", "A hill climber", needs=("3.4",), refused=TOOL)
-climber.draws(
-    "A climber of two individuals comes nearer in small steps, and never goes back.",
-    "generation", "distance of the best from the goal", kind="curves", of=distances,
-    call=(evolved, "hill_climb", np.random.default_rng(1).normal(size=8), 150, 0.1, 1, 0.0),
-)  # fmt: skip
 
 
 @same(climber, 5, evolved, 0.05, view=lineage)
@@ -438,7 +380,6 @@ def seed_decides_the_climb(rng):
     yield "hill_climb", rng.normal(size=5), seed_of(rng)
 
 
-# ------------------------------------------------------------------- 3.6
 replications = exercise.task("3.6", "Replications")
 
 
@@ -463,12 +404,6 @@ def curves(rng, n, least=0.0):
     return histories, [int(seed) for seed in rng.permutation(50)[:n]]
 
 
-RISING = 200 - 150 * np.exp(-np.arange(15) / np.array([[2.0], [4.0], [8.0]]))
-replications.draws(
-    "The mean of three fitness curves, and their deviation, which is largest on the way.",
-    "generation", "fitness", kind="curves", call=(replicated, RISING, [3, 1, 2]),
-    of=lambda answer, *_: {name: answer[name] for name in ("mean", "deviation")},
-)  # fmt: skip
 ASKED = ("the seeds of experiment, in rising order,", "the list of seeds, afterwards,")
 
 
@@ -490,7 +425,6 @@ def a_single_replication(rng):
     yield curves(rng, 2)
 
 
-# ------------------------------------------------------------------- 3.7
 training = exercise.task("3.7", "CartPole and Pendulum", seconds=90, needs=("3.1", "3.2", "3.4"))
 
 

@@ -9,7 +9,7 @@ from itertools import product
 
 import numpy as np
 
-from botschool.grading import Exercise, same
+from botschool.grading import Exercise, same, seed_of
 
 exercise = Exercise(
     4,
@@ -17,28 +17,10 @@ exercise = Exercise(
     file="acrobot.py",
     imports=("botschool.course", "botschool.evolution.run"),
 )
-exercise.captions = {
-    "curves.png": (
-        "Three runs of 20 million steps. Each mark of the horizontal axis is ten times the one "
-        "before: most is learnt early."
-    ),
-    "acrobot.mp4": (
-        "Two links and one weak motor between them. Count the swings until the tip is above the "
-        "line."
-    ),
-}
 COLUMNS = (
-    "steps",
-    "best fitness",
-    "best post-evaluated",
-    "best of generation",
-    "average",
+    "steps", "best fitness", "best post-evaluated", "best of generation", "average",
     "average parameter",
-)
-
-
-def seed_of(rng) -> int:
-    return int(rng.integers(1, 100_000))
+)  # fmt: skip
 
 
 def seeds_of(rng, count):
@@ -69,23 +51,7 @@ def turned(rng):
 
 of_observations = partial(same, tolerance=1e-4)
 
-# ------------------------------------------------------------------- 4.1
 observing = exercise.task("4.1", "What Acrobot observes")
-
-
-def read_all(module, observations):
-    """decode(observation), of an arm that turns around,"""
-    found = [module.decode(each) for each in observations]
-    return {name: [float(each[name]) for each in found] for name in found[0]}
-
-
-TURN = np.linspace(-3, 3, 61)
-TURNING = [np.cos(TURN), np.sin(TURN), np.cos(TURN / 2), np.sin(TURN / 2), TURN, -2 * TURN]
-observing.draws(
-    "The arm turns once around: both angles rise along lines, without a leap.",
-    "true angle of the first link (rad)", "decoded", kind="curves",
-    call=(read_all, np.stack(TURNING, axis=1)), of=lambda answer, *_: answer | {"over": TURN},
-)  # fmt: skip
 
 
 @of_observations(observing, 9, "decode", parts=("angle1", "angle2"))
@@ -94,28 +60,9 @@ def angles(rng):
     yield from turned(rng)
 
 
-@of_observations(observing, 4, "decode", parts=("speed1", "speed2"))
-def speeds(rng):
-    yield from observations(rng)
+of_observations(observing, 4, "decode", parts=("speed1", "speed2"), name="speeds")(observations)
 
-
-# ------------------------------------------------------------------- 4.2
 rules = exercise.task("4.2", "What Acrobot does, and what for", needs=("4.1",))
-
-
-def heights(module, observations):
-    """height(observation), all over a plane of two angles,"""
-    return [[float(module.height(each)) for each in row] for row in observations]
-
-
-ANGLES = np.meshgrid(np.linspace(-3.1, 3.1, 31), np.linspace(-3.1, 3.1, 31))
-FOUR = [turn(angle) for angle in ANGLES for turn in (np.cos, np.sin)]
-rules.draws(
-    "The tip is highest, 2, where the first link points up and the second follows it.",
-    "angle of the first link (rad)", "angle of the second (rad)", kind="heat",
-    extent=(-3.1, 3.1, -3.1, 3.1),
-    call=(heights, np.stack([*FOUR, *0 * np.array(ANGLES)], axis=-1)),
-)  # fmt: skip
 
 
 @same(rules, 4, "torque")
@@ -138,7 +85,6 @@ def reward(rng):
     yield from (np.array([0.0, side, 0, side, 0, 0]) for side in (1, -1))
 
 
-# ------------------------------------------------------------------- 4.3
 replications = exercise.task("4.3", "Replications with the tool")
 
 ACROBOT = """\
@@ -202,12 +148,6 @@ def replicated(module, text, seeds, folder, steps, before):
     return found
 
 
-replications.draws(
-    "The best of each generation in two runs of the tool, as their stat files say.",
-    "generation", "fitness", kind="curves", call=(replicated, PENDULUM, [2, 1], "runs", 60_000, []),
-    of=lambda answer, *_: {name: np.reshape(one["its numbers"], (-1, 6))[:, 3]
-                           for name, one in answer["stat"].items()},
-)  # fmt: skip
 GIVEN = "the list of seeds, afterwards,"
 
 
@@ -238,7 +178,6 @@ def tells_the_fitness_of_each_run(rng):
         yield text, seeds, "fitness", steps, [seed_of(rng), seeds[1]]
 
 
-# ------------------------------------------------------------------- 4.4
 reading = exercise.task("4.4", "The stat file")
 
 
@@ -258,14 +197,6 @@ def read_saved(module, path, numbers):
     pathlib.Path(path).parent.mkdir(exist_ok=True)
     numpy.save(path, numbers)
     return module.read_stat(path)
-
-
-reading.draws(
-    "Of the six columns, the best so far only rises, the others go up and down.",
-    "steps", "fitness", kind="curves",
-    call=(read_saved, "runs/statS1.npy", table_of(np.random.default_rng(1), 40).ravel()),
-    of=lambda answer, *_: {name: answer[name] for name in COLUMNS[1:]} | {"over": answer["steps"]},
-)  # fmt: skip
 
 
 def files(rng, *generations):
@@ -288,7 +219,6 @@ def a_single_generation(rng):
     yield from files(rng, 1)
 
 
-# ------------------------------------------------------------------- 4.5
 spread = exercise.task("4.5", "Mean and spread at equal steps")
 
 
@@ -302,14 +232,6 @@ def stats_of(rng, *generations):
     return found
 
 
-BUDGETS = np.linspace(2100, 60_000, 60)
-spread.draws(
-    "The mean of three runs of different lengths at equal steps, and the spread between them.",
-    "steps", "fitness", kind="curves", of=lambda answer, *_: answer | {"over": BUDGETS},
-    call=("curves", stats_of(np.random.default_rng(2), 30, 50, 40), "average", BUDGETS),
-)  # fmt: skip
-
-
 def cases(rng):
     """Stats, columns and budgets: few, rising ones beyond the end of runs, and others."""
     first = 2100  # every run has a generation by then
@@ -321,14 +243,8 @@ def cases(rng):
     yield stats_of(rng, 20, 40), "best of generation", budgets[:1]
 
 
-@same(spread, 6, "curves", parts=("mean",))
-def mean_at_equal_steps(rng):
-    yield from cases(rng)
-
-
-@same(spread, 5, "curves", parts=("deviation",))
-def deviation_at_equal_steps(rng):
-    yield from cases(rng)
+same(spread, 6, "curves", parts=("mean",), name="mean_at_equal_steps")(cases)
+same(spread, 5, "curves", parts=("deviation",), name="deviation_at_equal_steps")(cases)
 
 
 @same(spread, 4, "curves", parts=("mean",))
@@ -339,7 +255,6 @@ def a_budget_met_exactly(rng):
         yield stats, "best of generation", np.append(budgets[budgets > 2000], 9000.0)
 
 
-# ------------------------------------------------------------------- 4.6
 worth = exercise.task("4.6", "What the robots are worth", needs=("4.4",))
 
 
@@ -367,14 +282,6 @@ def saved_runs(rng, text, size, count):
         saved |= {f"{kind}S{name}.npy": rng.normal(size=size) for kind in ("best", "bestg")}
         saved[f"statS{name}.npy"] = table_of(rng, 20).ravel()
     return text, saved, seeds, int(rng.integers(20, 60)), int(rng.integers(2**31))
-
-
-worth.draws(
-    "For each seed, what the curve promised, and what both saved robots reach in new episodes.",
-    "", "mean return", call=(compared, *saved_runs(np.random.default_rng(1), PENDULUM, 16, 3)),
-    of=lambda answer, *_: {f"{row['seed']} {name}": row[name] for row in answer[0]
-                           for name in ("promised", "best", "bestg")},
-)  # fmt: skip
 
 
 def of(*keys):

@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 
 from botschool.course import genotype_file
-from botschool.grading import Exercise, same
+from botschool.grading import Exercise, same, seed_of
 
 exercise = Exercise(
     5,
@@ -20,36 +20,9 @@ exercise = Exercise(
     extras=("box2d",),
     packages=(),
 )
-exercise.captions = {
-    "my_walker.png": (
-        "The body of the walker that was evolved here, at rest. Grey fans show how far its joints "
-        "turn."
-    ),
-    "my_walker.mp4": (
-        "Nobody drew this body, and nobody programmed this walk: both evolved together. Which "
-        "segments push?"
-    ),
-    "walkers.png": (
-        "Three walkers that evolved for longer. They found three bodies: which of them would you "
-        "have invented?"
-    ),
-    "matrix.png": (
-        "Each brain in each body. The diagonal is at home; elsewhere a brain drives a body that it "
-        "does not know."
-    ),
-    "walker1.mp4": "The first walker. Watch where it touches the ground, and when.",
-    "walker2.mp4": "The second walker, another body with another walk.",
-    "walker3.mp4": (
-        "The third walker. Could its brain move the first one's body? The matrix says it."
-    ),
-}
 BODY, OBSERVATIONS = 64, 35
 TOOL = ("botschool.envs.morphology:decode",)
 decoded = partial(same, tolerance=1e-5)
-
-
-def seed_of(rng) -> int:
-    return int(rng.integers(1, 100_000))
 
 
 def sparse(rng, numbers, limits):
@@ -73,57 +46,18 @@ def bodies(rng, spread=0.6):
 
 
 # ------------------------------------------------------------------- 5.1
-def walker():
-    """The body of the first pre-evolved walker."""
-    return np.load(genotype_file("bodybrainS1.npy"))[-BODY - 2 * OBSERVATIONS : -2 * OBSERVATIONS]
 
 
 size = exercise.task("5.1", "Sizes", refused=TOOL)
-size.draws(
-    "Lengths, thicknesses and masses of a walker's eleven segments, the torso first.",
-    "segment", "", kind="bars", call=lambda: ("sizes", walker()),
-)  # fmt: skip
+decoded(size, 6, "sizes", parts=("lengths",), name="length_of_each_segment")(bodies)
+decoded(size, 4, "sizes", parts=("thicknesses",), name="thickness_of_each_segment")(bodies)
+decoded(size, 4, "sizes", parts=("masses",), name="mass_of_each_segment")(bodies)
 
-
-@decoded(size, 6, "sizes", parts=("lengths",))
-def length_of_each_segment(rng):
-    yield from bodies(rng)
-
-
-@decoded(size, 4, "sizes", parts=("thicknesses",))
-def thickness_of_each_segment(rng):
-    yield from bodies(rng)
-
-
-@decoded(size, 4, "sizes", parts=("masses",))
-def mass_of_each_segment(rng):
-    yield from bodies(rng)
-
-
-# ------------------------------------------------------------------- 5.2
 turning = exercise.task("5.2", "Angles", refused=TOOL)
-turning.draws(
-    "A walker's angles at rest, and how far each of its ten joints turns to both sides.",
-    "joint", "angle (rad)", kind="bars", call=lambda: ("joints", walker()),
-)  # fmt: skip
+decoded(turning, 6, "joints", parts=("angles",), name="default_angles")(bodies)
+decoded(turning, 7, "joints", parts=("lower", "upper"), name="limits_of_joints")(bodies)
 
-
-@decoded(turning, 6, "joints", parts=("angles",))
-def default_angles(rng):
-    yield from bodies(rng)
-
-
-@decoded(turning, 7, "joints", parts=("lower", "upper"))
-def limits_of_joints(rng):
-    yield from bodies(rng)
-
-
-# ------------------------------------------------------------------- 5.3
 shape = exercise.task("5.3", "The shape at rest", needs=("5.1", "5.2"), refused=TOOL)
-shape.draws(
-    "The body of an evolved walker at rest: eleven segments that hang together.",
-    "x (m)", "y (m)", kind="shapes", call=lambda: ("outline", walker()),
-)  # fmt: skip
 
 
 def with_angles(parameters, many):
@@ -148,24 +82,10 @@ def bent_bodies(rng):
     yield from bodies(rng, spread=1.5)
 
 
-# ------------------------------------------------------------------- 5.4
 numbers = exercise.task("5.4", "A body in five numbers", needs=("5.1", "5.2", "5.3"), refused=TOOL)
-
-
-@decoded(numbers, 4, "describe", parts=("length", "mass"))
-def length_and_mass(rng):
-    yield from bodies(rng)
-
-
-@decoded(numbers, 4, "describe", parts=("width", "height"))
-def width_and_height(rng):
-    yield from bodies(rng)
-
-
-@decoded(numbers, 2, "describe", parts=("freedom",))
-def freedom_of_the_joints(rng):
-    yield from bodies(rng)
-
+decoded(numbers, 4, "describe", parts=("length", "mass"), name="length_and_mass")(bodies)
+decoded(numbers, 4, "describe", parts=("width", "height"), name="width_and_height")(bodies)
+decoded(numbers, 2, "describe", parts=("freedom",), name="freedom_of_the_joints")(bodies)
 
 # ------------------------------------------------------------------- 5.5
 EXPERIMENT = """
@@ -252,7 +172,6 @@ def stops_after_the_steps(rng):
     yield trial(rng, 3, 150, earlier=(1,))
 
 
-# ------------------------------------------------------------------- 5.6
 surgery = exercise.task("5.6", "Give a brain another body")
 
 
@@ -272,7 +191,6 @@ def brain_in_another_body(rng):
     yield from genotypes(rng, 2)
 
 
-# ------------------------------------------------------------------- 5.7
 crossing = exercise.task("5.7", "The co-adaptation matrix", needs=("5.6",))
 
 
@@ -292,14 +210,6 @@ def varied(rng):
     return walkers
 
 
-crossing.draws(
-    "What each brain (row) earns in each body (column): the diagonal is at home.",
-    "body", "brain", kind="heat", of=lambda answer, *_: answer["its answer"],
-    call=lambda: (crossed, EXPERIMENT.format(maxsteps=200, hidden=50, noise=0.01),
-          np.array([np.load(genotype_file(f"bodybrainS{seed}.npy")) for seed in (1, 2, 3)]), 1, 1),
-)  # fmt: skip
-
-
 @same(crossing, 6, crossed, 1e-5)
 def pre_evolved_walkers(rng):
     text, walkers = EXPERIMENT.format(maxsteps=60, hidden=50, noise=0.01), varied(rng)
@@ -316,14 +226,7 @@ def another_experiment(rng):
         yield text, walkers[:count], seed, episodes
 
 
-# ------------------------------------------------------------------- 5.8
 losing = exercise.task("5.8", "What is lost")
-losing.draws(
-    "How much each brain loses in foreign bodies, and each body with foreign brains.",
-    "walker", "loss", kind="bars",
-    call=("loss", np.array([[300.0, 20, -10], [40, 250, 5], [90, 60, 200]])),
-    of=lambda answer, *_: {name: answer[name] for name in ("brains", "bodies")},
-)  # fmt: skip
 lost = partial(same, tolerance=1e-5, off={"one": "there are at least two walkers"})
 TIES = [[4.0, 4.0, 1.0], [2.0, -1.0, -1.0], [4.0, 0.0, 3.0]]
 """Returns that are the same as the own one in a row, or in a column."""
@@ -336,19 +239,9 @@ def matrices(rng):
     yield from (*made[2:], np.array(TIES))
 
 
-@lost(losing, 4, "loss", parts=("own", "foreign"))
-def own_and_foreign(rng):
-    yield from matrices(rng)
-
-
-@lost(losing, 3, "loss", parts=("brains",))
-def loss_of_brains(rng):
-    yield from matrices(rng)
-
-
-@lost(losing, 3, "loss", parts=("bodies",))
-def loss_of_bodies(rng):
-    yield from matrices(rng)
+lost(losing, 4, "loss", parts=("own", "foreign"), name="own_and_foreign")(matrices)
+lost(losing, 3, "loss", parts=("brains",), name="loss_of_brains")(matrices)
+lost(losing, 3, "loss", parts=("bodies",), name="loss_of_bodies")(matrices)
 
 
 @lost(losing, 2, "loss", parts=("at home",))

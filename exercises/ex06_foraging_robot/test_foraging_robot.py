@@ -11,23 +11,6 @@ from botschool.course import genotype_file
 from botschool.grading import Exercise, same
 
 exercise = Exercise(6, "A foraging robot", file="foraging_robot.py")
-exercise.captions = {
-    "forager.mp4": (
-        "A robot with eight infrared sensors and ten memory cells looks for the cylinder, and not "
-        "for the walls. Watch how it tells them apart: it bounces off a wall, and stays at the "
-        "cylinder."
-    ),
-    "trajectories.png": (
-        "Paths from six starts, redder where the sensors see more. In the middle the robot forgets "
-        "everything after each step; on the right its memory is frozen. Count the crosses: they "
-        "are collisions."
-    ),
-    "mind_seed*.png": (
-        "One episode over time: sensors, memory cells, wheels, and what the wheels *would* do if "
-        "the robot saw nothing now. Where it sees nothing and acts otherwise than at first, it "
-        "acts on its memory."
-    ),
-}
 UNITS, INPUTS = 10, 8
 
 
@@ -75,7 +58,6 @@ def seed_of(rng):
     return int(rng.integers(2, 100_000))
 
 
-# ------------------------------------------------------------------- 6.1
 network = exercise.task("6.1", "One step of an LSTM")
 
 
@@ -105,19 +87,6 @@ def thought(module, brain, observations, memory):
     return {"memories": memories, "actions": actions}
 
 
-def first_robot():
-    return weights(np.load(genotype_file("discrimS1.npy")))
-
-
-GLANCE = np.exp(-((np.arange(60)[:, None] - 20 - 3 * np.arange(INPUTS)) ** 2) / 40)
-network.draws(
-    "A thing passes by: the memory cells keep what was seen, and the wheels answer later, too.",
-    "step", "", kind="curves", call=lambda: (thought, first_robot(), GLANCE, np.zeros((2, UNITS))),
-    of=lambda answer, *_: {"memory cells": np.array(answer["memories"])[:, 0],
-                           "wheels": answer["actions"]},
-)  # fmt: skip
-
-
 @same(network, 8, thought, 1e-4)
 def many_steps(rng):
     brain = {name: values + 0.3 * rng.normal(size=values.shape)
@@ -126,7 +95,6 @@ def many_steps(rng):
         yield brain, rng.uniform(0, 1, (steps, INPUTS)), np.zeros((2, UNITS))
 
 
-# ------------------------------------------------------------------- 6.2
 recording = exercise.task("6.2", "An episode, recorded", seconds=60, needs=("6.1",))
 
 
@@ -143,14 +111,6 @@ def recorded(module, brain, start, cylinder, seed, way, maxsteps):
 
     remember = {"keep": module.keep, "forgetful": forgetful, "mixed": mixed}[way]
     return module.episode(brain, start, cylinder, seed, remember, maxsteps)
-
-
-recording.draws(
-    "The way of an evolved robot, from the ring to the disc: it finds the cylinder at (200, 150).",
-    "x (mm)", "y (mm)", kind="path", of=lambda answer, *_: answer["poses"][:, :2],
-    call=lambda: (recorded, first_robot(), np.array([100.0, 300.0, 3.0]),
-                  np.array([200.0, 150.0]), 1, "keep", 200),
-)  # fmt: skip
 
 
 @same(recording, 7, recorded, 1e-3)
@@ -183,14 +143,7 @@ def lasts_longer_than_500_steps(rng):
         yield steady(rng, 0.3, -0.3), *place(rng), seed_of(rng), "keep", steps
 
 
-# ------------------------------------------------------------------- 6.3
 starts = exercise.task("6.3", "A grid of starts")
-starts.draws(
-    "Four places, four directions in each: no start is favoured.",
-    "x (mm)", "y (mm)", kind="arrows", call=("grid", 2, 4), extent=(0, 400, 0, 400),
-    of=lambda answer, *_: np.column_stack([answer[:, :2], 40 * np.cos(answer[:, 2]),
-                                           40 * np.sin(answer[:, 2])]),
-)  # fmt: skip
 
 
 @same(starts, 8, "grid", 1e-6)
@@ -200,7 +153,6 @@ def starts_of_a_grid(rng):
     yield from ((4, 3), (5, many), (2, 1), (2, 3), (3, 4), (3, 1), (7, 2))
 
 
-# ------------------------------------------------------------------- 6.4
 behaviour = exercise.task("6.4", "A behaviour in six numbers")
 EDGES = np.array(
     [
@@ -246,9 +198,7 @@ def searches(rng):
         yield wandering(rng, *case)
 
 
-@same(behaviour, 3, "describe", 1e-4, parts=("search",))
-def length_of_the_search(rng):
-    yield from searches(rng)
+same(behaviour, 3, "describe", 1e-4, parts=("search",), name="length_of_the_search")(searches)
 
 
 @same(behaviour, 7, "describe", 1e-4, parts=("speed", "turning", "wall"))
@@ -268,15 +218,7 @@ def of_nothing(rng):
         yield wandering(rng, *case)
 
 
-# ------------------------------------------------------------------- 6.5
 groups = exercise.task("6.5", "Families")
-CLOUDS = np.repeat([[0.0, 0.0], [3.0, 3.0], [4.0, 0.5]], 5, axis=0)
-groups.draws(
-    "Robots that behave alike are near each other and have the same number: three families.",
-    "first descriptor", "second descriptor", kind="groups",
-    call=("families", CLOUDS + 0.5 * np.random.default_rng(1).normal(size=CLOUDS.shape), 2.0),
-    of=lambda answer, table, threshold: np.column_stack([table, answer]),
-)  # fmt: skip
 
 
 def table_of(rng, robots, columns, equal=None):
@@ -322,7 +264,6 @@ def by_mean_distance(rng):
             yield table.round(3), float(threshold.round(2))
 
 
-# ------------------------------------------------------------------- 6.6
 without = exercise.task("6.6", "Without memory", seconds=90, needs=("6.2",))
 A_START = "a start has three numbers"
 
@@ -352,14 +293,6 @@ def remembering(module, since, first, afters):
     }
 
 
-without.draws(
-    "What one robot earns with its memory, without it, and with one that stops after 40 steps.",
-    "", "mean return",
-    call=lambda: ("memory_test", first_robot(), np.array([[100.0, 300, 3], [300, 300, 4]]),
-                  np.array([200.0, 150.0]), 1, 40, 200),
-)  # fmt: skip
-
-
 @same(without, 5, remembering, 1e-6)
 def ways_to_remember(rng):
     """Memories that are easy to recognise, and no multiples of others."""
@@ -379,14 +312,7 @@ def what_memory_is_worth(rng):
         yield brain, np.array(starts).round(2), cylinder, seed_of(rng), since, maxsteps
 
 
-# ------------------------------------------------------------------- 6.7
 reacting = exercise.task("6.7", "The same sight, another mind", needs=("6.1",))
-MINDS = np.linspace(-1, 1, 60)[:, None, None] * np.array([[2.0], [1.0]]) * np.ones(UNITS)
-reacting.draws(
-    "The wheels' answers to one and the same sight, while what is remembered changes.",
-    "from one memory to its opposite", "wheels", kind="curves",
-    call=lambda: ("reactions", first_robot(), np.zeros(INPUTS), MINDS),
-)  # fmt: skip
 
 
 @same(reacting, 6, "reactions", 1e-5)

@@ -13,24 +13,10 @@ import numpy as np
 from PIL import Image
 
 from botschool.course import Robot
-from botschool.grading import Exercise, Student, Wrong, expect, expect_array, same
+from botschool.grading import Exercise, Student, Wrong, expect, expect_array, same, seed_of
 
 PENDULUM = "gymnasium.envs.classic_control.pendulum"
 exercise = Exercise(7, "Phase portrait", file="phase_portrait.py", imports=(PENDULUM,))
-exercise.captions = {
-    "portraits.png": (
-        "Each picture shows the whole behaviour: grey arrows lead from every state to the next. "
-        "Evolution turns one river into another, whose water runs to the middle, where the "
-        "pendulum stands."
-    ),
-    "pendulum.mp4": (
-        "The same robot as in the last picture. Find its swing-up among the orange arrows."
-    ),
-}
-
-
-def seed_of(rng) -> int:
-    return int(rng.integers(1, 100_000))
 
 
 def states_in(rng, n, largest=np.pi):
@@ -51,7 +37,6 @@ def parts_of(answer, *_):
     }
 
 
-# ------------------------------------------------------------------- 7.1
 state = exercise.task("7.1", "From observation to state")
 
 
@@ -66,15 +51,6 @@ def at_one_end(answer, observation):
     return states
 
 
-TURN = np.linspace(-3, 3, 61)
-state.draws(
-    "The angle rises along a line while cosine and sine go around; the velocity is as observed.",
-    "true angle (rad)", "angle (rad), velocity (rad/s)",
-    kind="curves", call=("to_state", observed(np.stack([TURN, 2 * np.sin(2 * TURN)], axis=1))),
-    of=lambda answer, *_: {"angle and velocity": answer, "over": TURN},
-)  # fmt: skip
-
-
 @same(state, 6, "to_state", 1e-5, view=at_one_end)
 def one_observation(rng):
     yield from observed(np.array([[0.5, 1.0], [-2.5, -3.0], *states_in(rng, 4)]))
@@ -86,13 +62,7 @@ def many_observations(rng):
     yield from (observed(states_in(rng, n)) for n in (1, 3, 3, 50))
 
 
-# ------------------------------------------------------------------- 7.2
 recording = exercise.task("7.2", "Recording an episode", needs=("7.1",))
-PLANE = ("angle (rad), 0 is upright", "velocity (rad/s)")
-recording.draws(
-    "An episode leaves a trail of states: where the dots are far apart, the pendulum is fast.",
-    *PLANE, kind="points", of=lambda answer, gains, seed, steps: answer[0],
-)  # fmt: skip
 
 
 def recorded(module, gains, seed, steps):
@@ -128,16 +98,7 @@ def ends_with_the_episode(rng):
         yield rng.uniform(-1.5, 1.5, 3), seed_of(rng), steps
 
 
-# ------------------------------------------------------------------- 7.3
 changes = exercise.task("7.3", "Arrows")
-ALL_OVER = np.meshgrid(np.linspace(-3.1, 3.1, 15), np.linspace(-7, 7, 11))
-FALLING = np.stack(ALL_OVER, axis=-1).reshape(-1, 2)
-FALLEN = FALLING + 0.05 * np.stack([FALLING[:, 1], 15 * np.sin(FALLING[:, 0])], axis=1)
-FALLEN[:, 0] = (FALLEN[:, 0] + np.pi) % (2 * np.pi) - np.pi
-changes.draws(
-    "Each arrow leads from a state to the next one, also over the edge at -pi and pi: a river.",
-    *PLANE, kind="arrows", call=("arrows", FALLING, FALLEN),
-)  # fmt: skip
 COLUMNS = dict.fromkeys(("square", "one"), "a state has two numbers")
 
 
@@ -155,7 +116,6 @@ def short_way_around(rng):
     yield from ((states_in(rng, n), states_in(rng, n)) for n in (3, 10, 60))
 
 
-# ------------------------------------------------------------------- 7.4
 everywhere = exercise.task("7.4", "The whole state space", needs=("7.1",))
 
 
@@ -175,18 +135,6 @@ def stepped(module, gains, states, strongest):
     return module.next_states(controller, states)
 
 
-def river(answer, gains, states, strongest):
-    """Arrows, where neither edge is near."""
-    return {"from each state to the next": np.hstack([states, np.asarray(answer) - states])}
-
-
-everywhere.draws(
-    "The pendulum everywhere, with a motor that pushes it to the middle, where it stands.",
-    *PLANE, kind="arrows", of=river,
-    call=(stepped, np.array([0.0, -8.0, -2.0]), FALLING[np.abs(FALLING[:, 0]) < 2.8], 2),
-)  # fmt: skip
-
-
 @same(everywhere, 5, stepped, 1e-5, view=parts_of)
 def pendulum_without_motor(rng):
     yield from ((np.zeros(3), states_in(rng, n), 2) for n in (3, 30))
@@ -201,7 +149,6 @@ def pendulum_with_controller(rng):
         yield np.array([3.0, 8.0, 2.0]), states_in(rng, n), 25
 
 
-# ------------------------------------------------------------------- 7.5
 stages = exercise.task("7.5", "Keeping stages of evolution")
 
 
@@ -236,12 +183,6 @@ def run(rng, generations, every, least=0.0):
     return prepared, target, generations, every, least
 
 
-stages.draws(
-    "The curve is the fitness of each generation's best.",
-    "generation", "fitness", kind="curves", of=lambda answer, *_: {"history": answer["history"]},
-)  # fmt: skip
-
-
 @same(stages, 7, staged, 1e-6, parts=("the generations of evaluate", "history"))
 def asks_evaluates_and_tells(rng):
     for generations in (3, 1, 15):
@@ -260,7 +201,6 @@ def keeps_the_best_as_they_were(rng):
         yield run(rng, generations, every, least)
 
 
-# ------------------------------------------------------------------- 7.6
 three = exercise.task("7.6", "Three stages", seconds=60, needs=("7.5",))
 SEEDS = (25, 30)
 NEW = "on average in 100 new episodes (the robot's parameters count with other signs and sizes)"
@@ -321,7 +261,6 @@ def stages_rise(student: Student):
         expect(first < -900 and first + 100 <= middle <= last - 100, said)
 
 
-# ------------------------------------------------------------------- 7.7
 picture = exercise.task("7.7", "The picture", seconds=45)
 TITLES = ("early", "middle", "late")
 VISIBLE = 2  # of 255: a field may be drawn in a very light grey

@@ -18,27 +18,10 @@ from botschool.grading import Exercise, Student, expect, expect_array, same
 from botschool.grading.declare.libraries import OPENAI_ES
 
 exercise = Exercise(8, "OpenAI-ES", file="openai_es.py")
-exercise.captions = {
-    "stability.png": (
-        "Nine runs with rash settings, coloured by how far each of them falls back. Dashed lines "
-        "mark the largest fall."
-    ),
-    "pendulum.mp4": (
-        "Evolved by the strategy that was written here. Watch the torque, the output neuron: when "
-        "does it let go?"
-    ),
-}
 SIZES = ((1, 1), (3, 2), (20, 37))
 """Of samples and parameters."""
 
-# ------------------------------------------------------------------- 8.1
 sampling = exercise.task("8.1", "Symmetric sampling", refused=OPENAI_ES)
-sampling.draws(
-    "Candidates around the centre, at (1, 2): each has its twin on the other side.",
-    "first parameter", "second parameter", kind="points",
-    call=("candidates_around", np.array([1.0, 2.0]),
-          np.random.default_rng(1).normal(size=(12, 2)), 0.3),
-)  # fmt: skip
 
 
 @same(sampling, 8, "candidates_around")
@@ -53,14 +36,7 @@ def few_candidates(rng):
     yield rng.normal(size=5), rng.normal(size=(4, 5)), 0.1
 
 
-# ------------------------------------------------------------------- 8.2
 ranks = exercise.task("8.2", "Utilities", refused=OPENAI_ES)
-RETURNS = np.sort(np.random.default_rng(1).normal(size=20) ** 3)
-ranks.draws(
-    "Equal steps from -0.5 to 0.5, however far apart the returns are: an outlier counts no more.",
-    "return", "utility", kind="curves", call=("utilities", RETURNS),
-    of=lambda answer, *_: {"utility": answer, "over": RETURNS},
-)  # fmt: skip
 
 
 @same(ranks, 8, "utilities")
@@ -83,16 +59,7 @@ def equals_in_their_order(rng):
     yield rng.integers(0, 4, 40).astype(float)
 
 
-# ------------------------------------------------------------------- 8.3
 direction = exercise.task("8.3", "The gradient", refused=OPENAI_ES)
-SAMPLES = np.random.default_rng(1).normal(size=(40, 2))
-UP = np.argsort(np.argsort(np.stack([SAMPLES, -SAMPLES], axis=1).reshape(-1, 2) @ [2.0, 1.0]))
-direction.draws(
-    "The arrow points to where the utilities rise: to the right, and a little upwards.",
-    "first parameter", "second parameter", kind="arrows",
-    call=("gradient", SAMPLES, UP / 79 - 0.5), extent=(-0.5, 0.5, -0.5, 0.5),
-    of=lambda answer, *_: np.concatenate([[0.0, 0.0], answer])[None],
-)  # fmt: skip
 
 
 @same(direction, 8, "gradient")
@@ -107,14 +74,7 @@ def many_samples(rng):
     yield rng.normal(size=(3000, 6)), rng.permutation(np.linspace(-0.5, 0.5, 6000))
 
 
-# ------------------------------------------------------------------- 8.4
 decay = exercise.task("8.4", "Weight decay", refused=OPENAI_ES)
-decay.draws(
-    "Where no gradient is, weight decay is a slope to 0, the steeper the larger the parameter.",
-    "parameter", "descent", kind="curves", of=lambda answer, *_: {"descent": answer,
-                                                                  "over": np.linspace(-3, 3, 41)},
-    call=("descent", np.zeros(41), np.linspace(-3, 3, 41), 1),
-)  # fmt: skip
 
 
 def slopes(rng, wdecay):
@@ -142,7 +102,6 @@ def decay_by_sign(rng):
     yield from slopes(rng, 2)
 
 
-# ------------------------------------------------------------------- 8.5
 optimiser = exercise.task("8.5", "Adam", refused=OPENAI_ES)
 adam = partial(same, tolerance=1e-7, parts=("the new centre", "the new m", "the new v"))
 
@@ -151,22 +110,6 @@ def step(rng, n, t):
     d = rng.uniform(0.05, 2, n) * rng.choice([-1, 1], n)
     m, v = (np.zeros(n), np.zeros(n)) if t == 1 else (rng.normal(size=n), rng.uniform(0.1, 2, n))
     return rng.normal(size=n), d, m, v, t, round(float(rng.uniform(0.01, 0.2)), 3)
-
-
-def descended(module, centre, slopes, stepsize):
-    """adam, step after step, down a valley that is steep across and flat along it,"""
-    way, m, v = [centre], 0 * centre, 0 * centre
-    for t in range(1, 61):
-        centre, m, v = module.adam(centre, slopes * centre, m, v, t, stepsize)
-        way.append(centre)
-    return way
-
-
-optimiser.draws(
-    "Sixty steps of Adam from the ring: first equally long in both directions, then to the middle.",
-    "first parameter", "second parameter", kind="path",
-    call=(descended, np.array([1.0, 0.6]), np.array([0.1, 10.0]), 0.05),
-)  # fmt: skip
 
 
 @adam(optimiser, 6, "adam")
@@ -194,7 +137,6 @@ def where_hardly_anything_slopes(rng):
     yield rng.normal(size=5), d, 0.5 * d, d**2, 40, 0.1
 
 
-# ------------------------------------------------------------------- 8.6
 whole = exercise.task(
     "8.6", "The whole algorithm", needs=("8.1", "8.2", "8.3", "8.4", "8.5"), refused=OPENAI_ES
 )
@@ -220,15 +162,6 @@ def evolved(module, centre, target, generations, seed, options, decimals):
     return found | {key: answer[key] for key in ("history", "centre")}
 
 
-whole.draws(
-    "The mean fitness rises from generation to generation, while the goal moves to and fro.",
-    "generation", "mean fitness", kind="curves",
-    call=(evolved, np.full(6, 3.0), np.zeros(6), 60, 1,
-          {"samplesize": 20, "noiseStdDev": 0.1, "stepsize": 0.1}, 15),
-    of=lambda answer, *_: {"history": answer["history"]},
-)  # fmt: skip
-
-
 def run(rng, n, generations, decimals=15, **options):
     seed = int(rng.integers(100_000))
     return rng.normal(size=n), rng.normal(size=n), generations, seed, options, decimals
@@ -252,13 +185,7 @@ def hyperparameters_have_defaults(rng):
     yield run(rng, 10, 12)
 
 
-# ------------------------------------------------------------------- 8.7
 curves = exercise.task("8.7", "How stable is it?")
-curves.draws(
-    "The mean of five neighbours runs through the middle of a noisy curve.",
-    "generation", "fitness", kind="curves",
-    call=("smooth", np.sin(np.arange(60) / 9) + 0.4 * np.random.default_rng(1).normal(size=60), 5),
-)  # fmt: skip
 
 
 @same(curves, 4, "smooth")
@@ -312,7 +239,6 @@ def verdicts(rng):
     yield from (with_fall(rng, fall, i % 2 == 0) for i, fall in enumerate(falls))
 
 
-# ------------------------------------------------------------------- 8.8
 training = exercise.task(
     "8.8", "CartPole and Pendulum", seconds=50, needs=("8.6",), refused=OPENAI_ES
 )

@@ -11,7 +11,7 @@ import numpy as np
 
 from botschool.course.locomotion import Runner
 from botschool.course.recordings import paid_episode
-from botschool.grading import Exercise, same
+from botschool.grading import Exercise, same, seed_of
 
 exercise = Exercise(
     9,
@@ -19,29 +19,12 @@ exercise = Exercise(
     file="reward_functions.py",
     imports=("botschool.course.locomotion", "botschool.evolution.run"),
 )
-exercise.captions = {
-    "gaits.png": (
-        "Two rewards, two robots: one is paid for standing as well, the other for its way alone. "
-        "Compare how far they come and what they earn it with."
-    ),
-    "hopper_v0.mp4": (
-        "Paid for every step in which it stands. It found the easiest way to be rich: it is a "
-        "statue. Drag the slider to the end."
-    ),
-    "hopper_v5.mp4": (
-        "Paid for its way alone, with the same body. Watch the foot: how short is it on the ground?"
-    ),
-}
 ROBOTS = {"Hopper": 3, "HalfCheetah": 6, "Ant": 8, "Walker2D": 6, "Humanoid": 17}
 """Joints."""
 PLANAR = {"PlanarHopper": (3, 1), "PlanarWalker2D": (6, 2), "PlanarHalfCheetah": (6, 2)}
 """Joints and feet."""
 SIZES = (4, 20, 40)
 """Steps of a trajectory; long ones go up to the limits."""
-
-
-def seed_of(rng) -> int:
-    return int(rng.integers(1, 100_000))
 
 
 def between(rng, low, high, shape):
@@ -92,13 +75,7 @@ def real(robot, seed):
     return paid_episode(robot, seed).trajectory
 
 
-# ------------------------------------------------------------------- 9.1
 first = exercise.task("9.1", "Progress, and being alive")
-first.draws(
-    "What a hopper that moves at random is paid for its way, until it falls.",
-    "step", "progress", kind="curves",
-    call=lambda: ("progress", *(real("Hopper", 1)[key] for key in ("distance", "duration"))),
-)  # fmt: skip
 
 
 @same(first, 6, "progress", 1e-7)
@@ -112,13 +89,7 @@ def tells_the_fallen(rng):
         yield one["robot"], one["height"], one["pitch"], one["touching"]
 
 
-# ------------------------------------------------------------------- 9.2
 costs = exercise.task("9.2", "What effort costs")
-costs.draws(
-    "What electricity costs an ant that moves at random: something in each step.",
-    "step", "electricity", kind="curves",
-    call=lambda: ("electricity", "Ant", *(real("Ant", 1)[key] for key in ("actions", "speeds"))),
-)  # fmt: skip
 
 
 @same(costs, 7, "electricity")
@@ -138,12 +109,7 @@ def counts_joints_at_their_limits(rng):
     yield from (one["positions"] for one in trajectories(rng, "Hopper", "Ant"))
 
 
-# ------------------------------------------------------------------- 9.3
 standard = exercise.task("9.3", "Version 0", needs=("9.1", "9.2"))
-standard.draws(
-    "What version 0 pays: the bonus for being alive stays the same, until the hopper falls.",
-    "step", "reward", kind="curves", call=lambda: ("components_v0", real("Hopper", 1)),
-)  # fmt: skip
 
 
 def components(answer, trajectory):
@@ -163,12 +129,7 @@ def rebuilds_version_0_of_real_episodes(rng):
     yield from (real(robot, seed_of(rng)) for robot in ("Hopper", "HalfCheetah", "Humanoid"))
 
 
-# ------------------------------------------------------------------- 9.4
 evolved = exercise.task("9.4", "Version 5", needs=("9.1", "9.2"))
-evolved.draws(
-    "Version 5 pays a walker for progress alone: standing still earns 0.",
-    "step", "reward", kind="curves", call=lambda: ("reward_v5", real("Walker2D", 1)),
-)  # fmt: skip
 
 
 @same(evolved, 4, "reward_v5", 1e-6)
@@ -196,7 +157,6 @@ def rewards_real_episodes(rng):
     yield from (real(robot, seed_of(rng)) for robot in ("Walker2D", "Ant"))
 
 
-# ------------------------------------------------------------------- 9.5
 described = exercise.task("9.5", "Planar runners, and a gait in five numbers", needs=("9.1",))
 
 
@@ -216,13 +176,6 @@ def planar(rng, robot, steps):
     one["height"][:7] = 0.7, 0.8, 2.0, 1.0, 1.0, 1.0, 1.0
     one["pitch"][:7] = 0.1, 0.1, 0.1, 0.2, -0.2, 1.0, -1.0
     return one
-
-
-RUNNER = planar(np.random.default_rng(1), "PlanarHopper", 40)
-described.draws(
-    "The three parts of what a planar hopper is paid; it falls now and then, and is alive again.",
-    "step", "reward", kind="curves", call=("planar_v0", RUNNER),
-)  # fmt: skip
 
 
 @same(described, 8, "planar_v0", 1e-7, view=components)
@@ -261,7 +214,6 @@ def describes_those_who_earn_nothing(rng):
         yield one | {"height": np.full(40, 0.3), "feet": 1 - one["feet"]}
 
 
-# ------------------------------------------------------------------- 9.6
 both = exercise.task("9.6", "Evolve both, and compare", seconds=60, needs=("9.5",))
 
 

@@ -16,7 +16,7 @@ from functools import partial
 import numpy as np
 
 from botschool.course.robots import imported, random_robot, registered
-from botschool.grading import Exercise, Student, Wrong, expect, expect_array, same, show
+from botschool.grading import Exercise, Student, Wrong, expect, expect_array, same, seed_of, show
 from botschool.grading.run.learning import lasted, learnt
 
 LOADED = ("pybullet", "pybullet_data", "botschool.course")
@@ -28,21 +28,7 @@ exercise = Exercise(
     extras=("pybullet", "rl"),
     packages=(),
 )
-exercise.captions = {
-    "balance.mp4": (
-        "Evolved in an environment that was built here. The robot leans to where it wants to go, "
-        "and drives after itself."
-    ),
-    "balance.png": (
-        "How far the robot leans in twenty episodes of each controller. Lines that end early have "
-        "fallen."
-    ),
-}
 once_more = partial(same, off=dict.fromkeys(("draw", "changes"), "the check before tries it"))
-
-
-def seed_of(rng) -> int:
-    return int(rng.integers(1, 100_000))
 
 
 def between(rng, low, high, size=None):
@@ -50,8 +36,6 @@ def between(rng, low, high, size=None):
 
 
 # ------------------------------------------------------------------ 10.1
-def random_link_masses(answer, *_):
-    return dict(sorted(answer["links"].items()))
 
 
 reading = exercise.task("10.1", "Read the robot")
@@ -64,13 +48,6 @@ def robots(rng):
     yield from (random_robot(rng, nlinks, nlinks % 2 == 0) for nlinks in (3, 4, 5, 6, 8, 7))
 
 
-reading.draws(
-    "What each link of a robot weighs.",
-    "", "mass (kg)", call=("describe", random_robot(np.random.default_rng(1), 6, True)),
-    of=random_link_masses,
-)  # fmt: skip
-
-
 def described(answer, urdf):
     """The answer, and the names in it: there are no others."""
     return answer | {"the names of links": ", ".join(sorted(map(str, answer["links"])))}
@@ -81,17 +58,9 @@ def links_and_their_masses(rng):
     yield from robots(rng)
 
 
-@same(reading, 4, "describe", parts=("joints",))
-def joints_and_what_they_join(rng):
-    yield from robots(rng)
+same(reading, 4, "describe", parts=("joints",), name="joints_and_what_they_join")(robots)
+same(reading, 4, "describe", 1e-6, parts=("centre",), name="centre_of_mass")(robots)
 
-
-@same(reading, 4, "describe", 1e-6, parts=("centre",))
-def centre_of_mass(rng):
-    yield from robots(rng)
-
-
-# ------------------------------------------------------------------ 10.2
 spaces = exercise.task("10.2", "The spaces")
 
 
@@ -207,7 +176,6 @@ def on_stage(module, call, lean, others, speed, given, mode=None):
     return found | {"its type": str(numpy.asarray(found.get("the observation")).dtype)}
 
 
-# ------------------------------------------------------------------ 10.3
 observing = exercise.task("10.3", "What the robot feels")
 
 
@@ -218,7 +186,6 @@ def observes(rng):
         yield "observe(), angular velocity", *state, between(rng, -3, 3, 3)
 
 
-# ------------------------------------------------------------------ 10.4
 resetting = exercise.task("10.4", "A new world")
 
 
@@ -244,13 +211,7 @@ def makes_the_world(rng):
     yield from resets(rng, [seed_of(rng)], [seed_of(rng), None], [seed_of(rng), seed_of(rng)])
 
 
-# ------------------------------------------------------------------ 10.5
 driving = exercise.task("10.5", "The motors")
-driving.draws(
-    "Each action adds to the wheels' speed, which stays below 24.6, and turns back at once.",
-    "step", "speed (rad/s)", kind="curves", of=lambda answer, *_: {"speed": answer["self.speed"]},
-    call=(on_stage, "drive(), actions", 0.1, [0.0, 0.0], 0.0, [1.0] * 30 + [-1.0] * 40),
-)  # fmt: skip
 
 
 def drives(speed, actions):
@@ -274,15 +235,7 @@ def stays_within_limits(rng):
         yield drives(side * 24.0, [side * 0.7, side * 0.5, side * 1.5, -side * 0.9])
 
 
-# ------------------------------------------------------------------ 10.6
 stepping = exercise.task("10.6", "Reward, end and step")
-stepping.draws(
-    "A robot whose wheels stand still falls; its reward falls with its inclination.",
-    "step", "", kind="curves",
-    call=(on_stage, "step(), actions", 0.05, [0.0, 0.0], 0.0, [0.0] * 80),
-    of=lambda answer, *_: {"inclination, angular velocity, wheels": answer["the observation"],
-                           "reward": answer["the reward"]},
-)  # fmt: skip
 
 
 def steps(rng, *courses):
@@ -325,7 +278,6 @@ def leaves_the_time_limit_to_gymnasium(rng):
     yield from steps(rng, (1, 0.0, 510))
 
 
-# ------------------------------------------------------------------ 10.7
 registering = exercise.task("10.7", "A name for the environment", seconds=40)
 
 
@@ -346,7 +298,6 @@ def passes_gymnasiums_checker(rng):
     yield "check_env", seed_of(rng), rng.uniform(0.1, 0.3, 3) * [1, 1, 0]
 
 
-# ------------------------------------------------------------------ 10.8
 packaging = exercise.task("10.8", "A package of its own")
 
 

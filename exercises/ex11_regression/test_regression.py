@@ -15,22 +15,12 @@ import itertools
 
 import numpy as np
 
-from botschool.grading import Exercise, Student, expect, expect_array, same, show
+from botschool.grading import Exercise, Student, expect, expect_array, same, seed_of, show
 from botschool.grading.declare.libraries import BACKPROPAGATION
 
 exercise = Exercise(
     11, "Back-propagation", file="regression.py", imports=("torch", "torch._dynamo"), extras=("rl",)
 )
-exercise.captions = {
-    "features.png": (
-        "On the left what a network answers over its two inputs, with a black line where it "
-        "changes its mind; then what each hidden neuron adds. How few soft lines make a disc?"
-    ),
-    "losses.png": (
-        "Three ways to train on the same data. Which costs less: many small steps, or inputs of "
-        "equal size?"
-    ),
-}
 SIZES = ((1, 1, 1, 1), (4, 2, 2, 1), (7, 3, 5, 2), (30, 4, 9, 3), (5, 3, 4, 1))
 """Of patterns, inputs, hidden neurons, outputs."""
 NAMES = ("w1", "b1", "w2", "b2")
@@ -41,10 +31,6 @@ def generator(index: int) -> np.random.Generator:
     return np.random.default_rng(exercise.seed(index))
 
 
-def seed_of(rng) -> int:
-    return int(rng.integers(1, 100_000))
-
-
 def drawn(rng, n, inputs, hiddens, outputs) -> list[np.ndarray]:
     """Inputs, targets, w1, b1, w2, b2; numbers that single precision holds exactly."""
     shapes = ((n, inputs), (n, outputs), (hiddens, inputs), (hiddens,), (outputs, hiddens))
@@ -52,7 +38,6 @@ def drawn(rng, n, inputs, hiddens, outputs) -> list[np.ndarray]:
     return [each.astype(np.float32).astype(float) for each in found]
 
 
-# ------------------------------------------------------------------- 11.1
 network = exercise.task("11.1", "The network")
 
 
@@ -99,15 +84,6 @@ def activations(rng, what):
     yield what, patterns, *(1000 * e for e in parameters)  # single precision has no e ** 100
 
 
-LINE = np.linspace(-6, 6, 61)[:, None]
-STEPS = np.array([[1.0], [3.0], [-1.0]]), np.array([0.0, 3.0, 2.0])
-network.draws(
-    "Three hidden neurons over one input: soft steps, each at a place and with a slope of its own.",
-    "input", "feature", kind="curves", of=lambda answer, *_: {"": answer, "over": LINE[:, 0]},
-    call=(activated, "features", LINE, *STEPS, np.ones((1, 3)), np.zeros(1)),
-)  # fmt: skip
-
-
 @same(network, 3, activated, 1e-4)
 def features_are_logistic(rng):
     yield from activations(rng, "features")
@@ -118,14 +94,7 @@ def outputs_are_linear(rng):
     yield from activations(rng, "outputs")
 
 
-# ------------------------------------------------------------------- 11.2
 by_hand = exercise.task("11.2", "The gradient by hand", refused=BACKPROPAGATION)
-NETWORK = tuple(drawn(np.random.default_rng(1), *SIZES[3]))
-by_hand.draws(
-    "The slope of the loss for every weight of the network; rows are neurons of the later layer.",
-    "neuron before", "neuron after", kind="heat", call=("gradient_by_hand", *NETWORK),
-    of=lambda answer, *_: {name: answer[name] for name in ("w1", "w2")},
-)  # fmt: skip
 
 
 def networks(rng):
@@ -138,9 +107,7 @@ def saturated(rng):
     yield inputs, targets, w1, b1 + 2000, w2, b2
 
 
-@same(by_hand, 3, "gradient_by_hand", parts=("loss",))
-def loss_by_hand(rng):
-    yield from networks(rng)
+same(by_hand, 3, "gradient_by_hand", parts=("loss",), name="loss_by_hand")(networks)
 
 
 @same(by_hand, 6, "gradient_by_hand", parts=("w2", "b2"))
@@ -157,13 +124,7 @@ def hidden_layer_by_hand(rng):
         yield inputs, 1e5 * targets, 0.3 * w1, b1 / 8 - 9, w2, b2
 
 
-# ------------------------------------------------------------------- 11.3
 by_torch = exercise.task("11.3", "The gradient by torch")
-by_torch.draws(
-    "The same slopes as by hand: torch finds them from the loss alone.",
-    "neuron before", "neuron after", kind="heat", call=("gradient_by_torch", *NETWORK),
-    of=lambda answer, *_: {name: answer[name] for name in ("w1", "w2")},
-)  # fmt: skip
 
 
 @same(by_torch, 7, "gradient_by_torch", SINGLE, off={"single": "torch mixes it with no double"})
@@ -201,7 +162,6 @@ def what_torch_has_found(rng):
         yield float(rng.integers(2, 9)), *drawn(rng, *sizes)
 
 
-# ------------------------------------------------------------------- 11.4
 loop = exercise.task("11.4", "The loop")
 
 
@@ -218,13 +178,6 @@ def trained(module, name, settings, inputs, targets, w1, b1, w2, b2):
     losses = [float(loss) for loss in getattr(module, name)(made, *tensors, *settings)]
     after = [layer.detach().numpy() for layer in made.parameters()]
     return {"the list of losses": losses, "the network (w1, b1, w2, b2)": after}
-
-
-loop.draws(
-    "The loss falls from epoch to epoch, quickly at first.",
-    "epoch", "loss", kind="curves", call=(trained, "train", [120, 0.05, 0.5], *NETWORK),
-    of=lambda answer, *_: {"losses": answer["the list of losses"]},
-)  # fmt: skip
 
 
 def descents(rng, epochs, momentum):
@@ -248,7 +201,6 @@ def momentum(rng):
     yield from descents(rng, 25, 0.8)
 
 
-# ------------------------------------------------------------------- 11.5
 corners = exercise.task("11.5", "Exclusive or", seconds=60, needs=("11.1", "11.4"))
 GRADIENTS = 30
 """That a training must have computed at least; the solution computes 300 before its first look."""
@@ -364,7 +316,6 @@ def other_corners(student: Student):
     expect_learnt(student, cube, targets, 8, 44)
 
 
-# ------------------------------------------------------------------- 11.6
 scaling = exercise.task("11.6", "Normalisation")
 COLUMNS = ("the inputs", "the mean", "the deviation")
 
@@ -397,7 +348,6 @@ def column_of_large_numbers(rng):
     yield 1_000_000 + rng.permutation(np.arange(12) - 5.0)[:, None]
 
 
-# ------------------------------------------------------------------- 11.7
 batches = exercise.task("11.7", "Minibatches")
 
 
@@ -423,7 +373,6 @@ def a_step_for_each_minibatch(rng):
         yield "train_in_batches", settings, *drawn(rng, *sizes)
 
 
-# ------------------------------------------------------------------- 11.8
 any_set = exercise.task("11.8", "Any training set", seconds=90, needs=("11.1", "11.6", "11.7"))
 LEAST = 0.85
 """Share of the variance that counts as the text's 90 %: honest trainings may end just below."""
@@ -501,7 +450,6 @@ def inputs_in_other_units(student: Student):
     compare_fit(student, 22, 200, [(-40.0, 15.0), (0.0, 1.0), (5e-3, 1e-3)], mixture)
 
 
-# ------------------------------------------------------------------- 11.9
 maps = exercise.task("11.9", "What the hidden neurons see")
 
 
@@ -524,14 +472,6 @@ def mapped(module, low, high, n, weights, biases):
     made, values = Features(), {"weight": torch.tensor(weights), "bias": torch.tensor(biases)}
     made.hidden.load_state_dict(values)
     return module.feature_maps(made, low, high, n)
-
-
-maps.draws(
-    "Each hidden neuron parts the plane of the two inputs by a soft line.",
-    "first input", "second input", kind="heat", extent=(-2, 2, -2, 2),
-    call=(mapped, -2.0, 2.0, 40, np.array([[2.0, 1.0], [0.0, -4.0], [-1.0, 1.0]]), np.ones(3)),
-    of=lambda answer, *_: {f"neuron {i + 1}": each for i, each in enumerate(answer)},
-)  # fmt: skip
 
 
 @same(maps, 8, mapped, 1e-4)

@@ -9,35 +9,16 @@ each once in 20 times.
 
 import numpy as np
 
-from botschool.grading import Exercise, Student, expect, expect_array, expect_fields, same
+from botschool.grading import Exercise, Student, expect, expect_array, expect_fields, same, seed_of
 from botschool.grading.declare.libraries import CROSS_ENTROPY, GAUSSIAN_DENSITY, TRAINING
 
 exercise = Exercise(
     12, "Cross-entropy", file="cross_entropy.py", imports=("torch", "torch._dynamo"), extras=("rl",)
 )
-exercise.captions = {
-    "learning.png": (
-        "Each dot is an episode, the elite in colour. Look how the elite of one iteration becomes "
-        "the ground on which the next one stands. Below: what each policy does, and where."
-    ),
-    "pendulum.mp4": "Three episodes of the pendulum after learning from its own best attempts.",
-}
 SINGLE = 1e-5  # where the submission computes in single precision
 
 
-def seed_of(rng) -> int:
-    return int(rng.integers(1, 100_000))
-
-
-# ------------------------------------------------------------------- 12.1
 probabilities = exercise.task("12.1", "Softmax")
-RISING = np.linspace(-5, 5, 51)
-probabilities.draws(
-    "As the first score rises, its probability grows from 0 to 1, and the others shrink.",
-    "first score, the others are 0 and 1", "probability", kind="curves",
-    call=("softmax", np.stack([RISING, 0 * RISING, 0 * RISING + 1], axis=1)),
-    of=lambda answer, *_: {"probabilities": answer, "over": RISING},
-)  # fmt: skip
 
 
 @same(probabilities, 6, "softmax")
@@ -53,7 +34,6 @@ def of_large_scores(rng):
     yield from (rng.uniform(720, 725, size).round(1) for size in (3, (4, 3)))
 
 
-# ------------------------------------------------------------------- 12.2
 choosing = exercise.task("12.2", "Choosing at random")
 
 
@@ -65,13 +45,6 @@ def chosen(module, probabilities, seed, times):
     actions = [module.choose(probabilities, rng) for _ in range(times)]
     whole = all(isinstance(each, (int, numpy.integer)) for each in actions)
     return {"whether each action is an int": whole, "the actions": actions}
-
-
-choosing.draws(
-    "How often 2000 darts hit each part: as often as its probability says, 0.1 to 0.4.",
-    "action", "how often", kind="bars", call=(chosen, np.array([0.1, 0.2, 0.3, 0.4]), 1, 2000),
-    of=lambda answer, *_: np.bincount(np.array(answer["the actions"], int).clip(0, 9), minlength=4),
-)  # fmt: skip
 
 
 @same(choosing, 5, chosen)
@@ -103,7 +76,6 @@ def at_the_ends_of_the_parts(rng):
         yield sixteenths, float(sixteenths[:place].sum())
 
 
-# ------------------------------------------------------------------- 12.3
 episodes = exercise.task("12.3", "An episode")
 
 
@@ -134,22 +106,15 @@ def records_what_was_seen(rng):
     yield from lives(rng, "botschool/PushedCartPole-v0", 1, 4, 400)
 
 
-@same(episodes, 3, lived, SINGLE, parts=("actions",))
-def records_what_was_done(rng):
-    yield from records_what_was_seen(rng)
+same(episodes, 3, lived, SINGLE, parts=("actions",), name="records_what_was_done")(
+    records_what_was_seen
+)
 
 
 @same(episodes, 2, lived, SINGLE, parts=("observations",))
 def stops_after_maxsteps_or_when_truncated(rng):
     yield from lives(rng, "CartPole-v1", 2, 4, 1)
     yield from lives(rng, "Pendulum-v1", 1, 3, 3, 60, 210, 250)
-
-
-episodes.draws(
-    "What a random policy saw of the cart-pole, step by step, until the pole fell.",
-    "step", "observation", kind="curves", of=lambda answer, *_: answer["observations"],
-    call=(lived, *next(lives(np.random.default_rng(3), "CartPole-v1", 2, 4, 400))),
-)  # fmt: skip
 
 
 def moved(module, lows, highs, chosen, rewards):
@@ -179,7 +144,6 @@ def cuts_only_what_the_environment_gets(rng):
     yield from motors(rng, 3, 4, 30)
 
 
-# ------------------------------------------------------------------- 12.4
 selecting = exercise.task("12.4", "The elite")
 
 
@@ -190,13 +154,6 @@ def made(rng, count, actuators=(), levels=0):
         actions = rng.normal(size=size) if actuators else rng.integers(0, 3, size)
         result = float(rng.integers(levels)) if levels else round(float(rng.normal(-300, 80)), 2)
         yield {"observations": seen, "actions": actions, "return": result}
-
-
-selecting.draws(
-    "The steps of the best episodes, one below the other; those of all others are gone.",
-    "observed number", "step", kind="heat", of=lambda answer, *_: answer["observations"],
-    call=("elite", list(made(np.random.default_rng(1), 12)), 70),
-)  # fmt: skip
 
 
 @same(selecting, 3, "elite", parts=("bound",))
@@ -228,7 +185,6 @@ def keeps_whole_actions_whole(rng):
         yield list(made(rng, count)), 60
 
 
-# ------------------------------------------------------------------- 12.5
 surprise = exercise.task("12.5", "Cross-entropy", refused=CROSS_ENTROPY)
 
 
@@ -264,7 +220,6 @@ def large_scores(rng):
     yield from choices(rng, ((2, 3), (30, 3), (12, 4)), 600)
 
 
-# ------------------------------------------------------------------- 12.6
 learning = exercise.task("12.6", "Learning from the elite")
 
 
@@ -289,14 +244,6 @@ def improved(module, weights, observations, actions, kind, updates):
     return {"what loss gets": types, "the losses": losses, "the network": own, "ln sigma": other}
 
 
-learning.draws(
-    "The loss falls from update to update.",
-    "update", "loss", kind="curves", of=lambda answer, *_: {"losses": answer["the losses"]},
-    call=(improved, np.ones((2, 4)), np.random.default_rng(1).normal(size=(40, 4)),
-          np.arange(40) % 2, "Adam", 60),
-)  # fmt: skip
-
-
 @same(learning, 8, improved, 1e-4, parts=("what loss gets", "the network", "ln sigma"))
 def parameters_after_the_updates(rng):
     kinds, sizes = ("SGD", "SGD", "Adam", "SGD", "Adam"), (3, 2, 3, 1, 3)
@@ -311,7 +258,6 @@ def losses_before_each_update(rng):
     yield from parameters_after_the_updates(rng)
 
 
-# ------------------------------------------------------------------- 12.7
 continuous = exercise.task("12.7", "Continuous actions", refused=GAUSSIAN_DENSITY)
 
 
@@ -321,13 +267,6 @@ def drawn(module, mean, log_deviation, seed, times):
 
     rng = numpy.random.default_rng(seed)
     return [numpy.array(module.gaussian_action(mean, log_deviation, rng)) for _ in range(times)]
-
-
-continuous.draws(
-    "Two actions, drawn 1000 times: around their means, 2 and -2, one narrow, one wide.",
-    "action", "share", kind="histogram",
-    call=(drawn, np.array([2.0, -2.0]), np.array([-1.0, 0.5]), 1, 1000),
-)  # fmt: skip
 
 
 @same(continuous, 6, drawn)
@@ -354,7 +293,6 @@ def gradients_of_both(rng):
     yield from motions(rng, ((2, 2), (30, 1), (20, 4)))
 
 
-# ------------------------------------------------------------------- 12.8
 training = exercise.task(
     "12.8", "Training", seconds=90, needs=tuple(f"12.{n}" for n in range(1, 8)), refused=TRAINING
 )

@@ -23,23 +23,8 @@ from botschool.grading.declare.libraries import (
 )
 
 exercise = Exercise(13, "Inside PPO", file="inside_ppo.py", extras=("rl",), packages=())
-exercise.captions = {
-    "cartpole.mp4": (
-        "A policy that was trained by a loop written here. It never learnt physics: it learnt what "
-        "was better than expected."
-    ),
-    "own_training.png": (
-        "Ten trainings by this loop, beside ten by the engine's own. Only the seeds differ: look "
-        "at all before you judge."
-    ),
-    "hidden_layer.png": (
-        "What 64 neurons respond to, before and after the training. Look for the stripes: they "
-        "follow the pole's angle and speed."
-    ),
-}
 close = partial(same, tolerance=1e-6)
 
-# ------------------------------------------------------------------- 13.1
 estimating = exercise.task("13.1", "Advantages", refused=ADVANTAGES)
 
 
@@ -53,18 +38,6 @@ def rollout(rng, steps, envs, ends=0.0, done=0.0, gamma=None, gae_lambda=None):
     gamma = round(float(rng.uniform(0.8, 0.99)), 3) if gamma is None else gamma
     gae_lambda = round(float(rng.uniform(0.5, 0.95)), 3) if gae_lambda is None else gae_lambda
     return rewards, 3 * values, starts, last_values, dones, gamma, gae_lambda
-
-
-PULSE = np.zeros((60, 1))
-PULSE[[20, 50]] = 1.0
-BEGINS = np.zeros((60, 1))
-BEGINS[[0, 30]] = 1.0
-estimating.draws(
-    "Two rewards, in steps 20 and 50: their light falls back in time, and stops where the "
-    "episode of step 30 begins.",
-    "step", "advantage", kind="curves",
-    call=("advantages", PULSE, 0 * PULSE, BEGINS, np.zeros(1), np.zeros(1), 0.97, 0.9),
-)  # fmt: skip
 
 
 @close(estimating, 4, "advantages")
@@ -102,7 +75,6 @@ def episodes_that_were_cut(rng):
         yield rewards, terminated, truncated, values, round(float(rng.uniform(0.8, 0.98)), 2)
 
 
-# ------------------------------------------------------------------- 13.2
 surrogate = exercise.task("13.2", "The clipped surrogate")
 
 
@@ -111,32 +83,6 @@ def batch(rng, n, spread, clip_range, unchanged=0):
     old, change = rng.normal(-1, 0.5, n).round(3), (spread * rng.normal(size=n)).round(3)
     change[:unchanged] = 0.0
     return old + change, old, (5 + 20 * rng.normal(size=n)).round(2), clip_range
-
-
-RATIOS = np.linspace(0.5, 1.5, 51)
-
-
-def clipping(module, ratios):
-    """policy_loss of two steps, while the ratio of one moves,"""
-    import numpy
-
-    found = [
-        [
-            float(module.policy_loss(
-                numpy.array([numpy.log(ratio), 0.0]), numpy.zeros(2), numpy.array([side, -side]),
-                0.2,
-            )["loss"])
-            for side in (1.0, -1.0)
-        ]
-        for ratio in ratios
-    ]  # fmt: skip
-    return {"loss": found, "over": ratios}
-
-
-surrogate.draws(
-    "The loss of a step that was better than expected is flat above 1.2, of a worse one below 0.8.",
-    "ratio of new to old probability", "loss", kind="curves", call=(clipping, RATIOS),
-)  # fmt: skip
 
 
 @close(surrogate, 6, "policy_loss", parts=("loss",))
@@ -168,7 +114,6 @@ def a_batch_of_one_step(rng):
         yield batch(rng, 1, spread, 0.2)
 
 
-# ------------------------------------------------------------------- 13.3
 critic = exercise.task("13.3", "The loss of the critic")
 
 
@@ -184,15 +129,7 @@ def with_clipping(rng):
         yield *rng.normal(size=(3, n)).round(2), limit
 
 
-# ------------------------------------------------------------------- 13.4
 undecided = exercise.task("13.4", "Entropy", refused=ENTROPY)
-SCORES = np.linspace(-6, 6, 61)
-undecided.draws(
-    "Two choices: the entropy is highest, ln 2, where both scores are equal.",
-    "first score minus second", "entropy", kind="curves",
-    call=("entropy_of_choices", np.stack([SCORES, 0 * SCORES], axis=1)),
-    of=lambda answer, *_: {"entropy": answer, "over": SCORES},
-)  # fmt: skip
 
 
 @close(undecided, 3, "entropy_of_choices")
@@ -213,7 +150,6 @@ def of_gaussians(rng):
         yield rng.normal(size=actuators).round(2)
 
 
-# ------------------------------------------------------------------- 13.5
 moving = exercise.task("13.5", "How far has the policy moved?", refused=UPDATES_MADE)
 
 
@@ -250,7 +186,6 @@ def goes_on_when_near(rng):
     yield [[0.0, 0.25]], 0.0
 
 
-# ------------------------------------------------------------------- 13.6
 together = exercise.task("13.6", "All together", refused=EXPLAINED_VARIANCE)
 
 
@@ -270,14 +205,7 @@ def explains_the_variance(rng):
             yield values, returns
 
 
-# ------------------------------------------------------------------- 13.7
 seeing = exercise.task("13.7", "What the hidden neurons respond to")
-SEEN = np.random.default_rng(1).normal(size=(100, 4))
-seeing.draws(
-    "Of eight neurons, each follows some of the four observed numbers, with or against them.",
-    "observed number", "neuron", kind="heat",
-    call=("responses", np.tanh(SEEN @ np.random.default_rng(2).normal(size=(4, 8))), SEEN),
-)  # fmt: skip
 
 
 @close(seeing, 5, "hidden_activations")
@@ -323,7 +251,6 @@ def what_hardly_changes(rng):
         yield 0.99999 + change * line, line
 
 
-# ------------------------------------------------------------------- 13.8
 looping = exercise.task(
     "13.8", "Your own loop", seconds=30, needs=("13.1", "13.5"), refused=PPO_LOOP
 )

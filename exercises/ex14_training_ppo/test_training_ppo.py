@@ -17,17 +17,6 @@ exercise = Exercise(
     file="training_ppo.py",
     imports=("botschool.rl.training", "tensorboard.backend.event_processing.event_accumulator"),
 )
-exercise.captions = {
-    "success.png": (
-        "How the trainings ended, variation by variation, and evolution beside PPO at equal steps. "
-        "Which differences are larger than the spread of their seeds?"
-    ),
-    "indicators.png": (
-        "What every training has logged. Which curve tells early that a training fails?"
-    ),
-    "CartPole-v1.mp4": "The best of all trainings on CartPole. Would you bet on its settings?",
-    "*.mp4": "The best of all trainings on the other problem.",
-}
 close = partial(same, tolerance=1e-6)
 SHORT = {"n_steps": 16, "batch_size": 64, "n_epochs": 2, "normalize": False}
 """Hyperparameters of trainings that take a fraction of a second."""
@@ -48,7 +37,6 @@ def with_files(module, name, place, files):
     return getattr(module, name)(place)
 
 
-# ------------------------------------------------------------------- 14.1
 varying = exercise.task("14.1", "Variations", seconds=60)
 
 
@@ -92,7 +80,6 @@ def every_variation_with_every_seed(rng):
         yield "CartPole-v1", own, seeds, 384, {"evaluations": 3, "episodes": 2}
 
 
-# ------------------------------------------------------------------- 14.2
 reading = exercise.task("14.2", "What was logged")
 LOG = "loss value_loss policy_gradient_loss entropy_loss approx_kl clip_fraction explained_variance"
 NAMES = "rollout/ep_rew_mean", "rollout/ep_len_mean", *(f"train/{name}" for name in LOG.split())
@@ -114,21 +101,6 @@ def entries(rng, names, most=30):
         steps[1] = steps[0]  # a step may be logged twice
         found += [(name, step, rng.normal()) for step in steps.tolist()]
     return sorted(found, key=lambda entry: entry[1])
-
-
-def falling(steps):
-    """Entries of a log: the loss falls, the return rises."""
-    return [entry for step in steps for entry in (
-        (NAMES[2], step, float(np.exp(-step / 3000))),
-        (NAMES[0], step, float(200 - 180 * np.exp(-step / 5000))),
-    )]  # fmt: skip
-
-
-reading.draws(
-    "Two indicators of a training, as its log has them: the return rises, the loss falls.",
-    "entry", "value", kind="curves", call=(with_files, *log_of(falling(range(200, 12_000, 400)))),
-    of=lambda answer, *_: {name: one["values"] for name, one in sorted(answer.items())},
-)  # fmt: skip
 
 
 def all_of(indicators, *_):
@@ -175,7 +147,6 @@ def a_training(rng):
         yield int(rng.integers(10_000)), steps, [*NAMES]
 
 
-# ------------------------------------------------------------------- 14.3
 success = exercise.task("14.3", "How successful was it?")
 
 
@@ -217,7 +188,6 @@ def the_goal_itself_is_enough(rng):
         yield evaluated(rng, means)
 
 
-# ------------------------------------------------------------------- 14.4
 table = exercise.task("14.4", "The table")
 
 
@@ -266,7 +236,6 @@ def a_seed_counts_once(rng):
         yield [*runs, *higher, *lower], "default"
 
 
-# ------------------------------------------------------------------- 14.5
 luck = exercise.task("14.5", "Is it more than luck?")
 
 
@@ -288,7 +257,6 @@ def with_equal_results(rng):
         yield (rng.integers(0, 4, 4) / 10).tolist(), (rng.integers(1, 6, 4) / 10).tolist()
 
 
-# ------------------------------------------------------------------- 14.6
 signs = exercise.task("14.6", "Warning signs")
 within = partial(close, off={"changes": "no step may exceed `total`"})
 
@@ -355,7 +323,6 @@ def signs_of_the_last_third(rng):
         yield watched(rng, missing)
 
 
-# ------------------------------------------------------------------- 14.7
 relating = exercise.task("14.7", "Which indicators go with success?")
 
 
@@ -389,20 +356,7 @@ def inside_variants(rng):
         yield numbers, [f"variant {kind}" for kind in which]
 
 
-# ------------------------------------------------------------------- 14.8
 equal = exercise.task("14.8", "Evolution and PPO at equal steps")
-RUNS = {
-    name: [
-        {"steps": np.cumsum(np.full(30, length)), "best": top * (1 - np.exp(-np.arange(30) / late))}
-        for length in (40.0, 55.0)
-    ]
-    for name, top, late in (("PPO", 180.0, 6.0), ("ES", 200.0, 12.0))
-}
-equal.draws(
-    "Two runs each of PPO and evolution, at the same steps: one is quicker at first.",
-    "place", "best so far", kind="curves", call=("at_equal_steps", RUNS, 40),
-    of=lambda answer, *_: {name: np.transpose(answer[name]) for name in RUNS},
-)  # fmt: skip
 
 
 @close(equal, 3, with_files)

@@ -13,24 +13,6 @@ from botschool.course.coevolution import play
 from botschool.grading import Exercise, same
 
 exercise = Exercise(15, "The master tournament", file="master_tournament.py")
-exercise.captions = {
-    "chases.html": (
-        "A predator and its prey meet at three times of their arms race. Watch who tacks and who "
-        "drives backwards: both have learnt it from each other."
-    ),
-    "chases.png": (
-        "Nine chases from above, early to late predators against early to late prey. A cross marks "
-        "where the prey was caught, a disc where it escaped."
-    ),
-    "tournament.png": (
-        "Each generation against all generations of the other side. In an arms race the colours "
-        "change from corner to corner."
-    ),
-    "red_queen.png": (
-        "Black is what one sees while they evolve: hardly anything. Underneath, in colour, both "
-        "sides gain all the time, each against the other."
-    ),
-}
 PARAMETERS, UNITS, INPUTS = 4977, 25, 24
 TOOL = ("botschool.analysis.tournament",)
 """What the tool's own tournament has for tasks 15.3, 15.5 and 15.7."""
@@ -69,13 +51,7 @@ def some_pair(rng, caught, maxsteps):
             return pair
 
 
-# ------------------------------------------------------------------- 15.1
 chasing = exercise.task("15.1", "A chase, recorded")
-chasing.draws(
-    "Predator and prey, from the rings to the discs: the chase ends where they touch.",
-    "x (mm)", "y (mm)", kind="path", of=lambda answer, *_: answer["poses"][..., :2],
-    call=lambda: ("chase", *some_pair(np.random.default_rng(1), True, 400), 400),
-)  # fmt: skip
 
 
 @same(chasing, 11, "chase", 1e-6)
@@ -94,20 +70,12 @@ def until_time_is_up(rng):
         yield *some_pair(rng, False, maxsteps), maxsteps
 
 
-# ------------------------------------------------------------------- 15.2
 meeting = exercise.task("15.2", "Everybody meets everybody")
 
 
 def groups(rng, generations, individuals, maxsteps):
     (g, h), (n, m) = generations, individuals
     return [predators_of(rng, n) for _ in range(g)], [prey_of(rng, m) for _ in range(h)], maxsteps
-
-
-meeting.draws(
-    "How each predator (row) of three generations fares against each prey (column).",
-    "prey", "predator", kind="heat", of=lambda answer, *_: np.reshape(answer, (6, 6)),
-    call=("tournament", *groups(np.random.default_rng(1), (3, 3), (2, 2), 200)),
-)  # fmt: skip
 
 
 @same(meeting, 8, "tournament", 1e-6)
@@ -122,7 +90,6 @@ def of_different_sizes(rng):
     yield groups(rng, (3, 2), (2, 4), 70)
 
 
-# ------------------------------------------------------------------- 15.3
 averaging = exercise.task("15.3", "The master matrix", refused=TOOL)
 
 
@@ -131,26 +98,13 @@ def random_table(rng, *shape):
     return np.where(rng.random(shape) < 0.3, 0.0, np.round(rng.random(shape) ** 0.5, 2))
 
 
-averaging.draws(
-    "A row and a column for each generation: light where the row's side does well.",
-    "generation of the other side", "generation", kind="heat",
-    call=("master", random_table(np.random.default_rng(1), 6, 3, 6, 3)),
-)  # fmt: skip
-
-
 def tables(rng):
     yield from (random_table(rng, *shape) for shape in ((1, 2, 2, 3), (2, 3, 2, 3)))
     yield from (random_table(rng, *shape) for shape in ((4, 2, 4, 5), (3, 1, 5, 2)))
 
 
-@same(averaging, 5, "master", parts=("predators",))
-def of_the_predators(rng):
-    yield from tables(rng)
-
-
-@same(averaging, 5, "master", parts=("prey",))
-def of_the_prey(rng):
-    yield from tables(rng)
+same(averaging, 5, "master", parts=("predators",), name="of_the_predators")(tables)
+same(averaging, 5, "master", parts=("prey",), name="of_the_prey")(tables)
 
 
 # ------------------------------------------------------------------- matrices
@@ -199,39 +153,18 @@ def matrices(rng):
     yield from (with_zeros(rng, count) for count in (4, 7))
 
 
-RACE = steady(np.random.default_rng(1), 9)
 of_matrices = partial(same, off={"one": "there are at least two generations"})
 
-# ------------------------------------------------------------------- 15.4
 times = exercise.task("15.4", "Ancient, present and future competitors")
-times.draws(
-    "In an arms race, a generation fares best against the ancient, and worst against the future.",
-    "generation", "fitness", kind="curves", call=("profile", RACE),
-)  # fmt: skip
+of_matrices(times, 4, "profile", parts=("present",), name="against_the_present")(matrices)
+of_matrices(
+    times, 8, "profile", parts=("ancient", "future"), name="against_the_past_and_the_future"
+)(matrices)
 
-
-@of_matrices(times, 4, "profile", parts=("present",))
-def against_the_present(rng):
-    yield from matrices(rng)
-
-
-@of_matrices(times, 8, "profile", parts=("ancient", "future"))
-def against_the_past_and_the_future(rng):
-    yield from matrices(rng)
-
-
-# ------------------------------------------------------------------- 15.5
 gaining = exercise.task("15.5", "Progress, or running in circles?", refused=TOOL)
-gaining.draws(
-    "In an arms race each generation gains on the one before, against old competitors and all.",
-    "generation", "gain", kind="curves", call=("progress", RACE),
-    of=lambda answer, *_: {name: answer[name] for name in ("historical", "global")},
-)  # fmt: skip
-
-
-@of_matrices(gaining, 7, "progress", parts=("historical", "global"))
-def over_the_predecessor(rng):
-    yield from matrices(rng)
+of_matrices(gaining, 7, "progress", parts=("historical", "global"), name="over_the_predecessor")(
+    matrices
+)
 
 
 @of_matrices(gaining, 4, "progress", parts=("share",))
@@ -248,25 +181,10 @@ def in_circles(rng):
         yield from (kind(rng, count) for count in counts)
 
 
-# ------------------------------------------------------------------- 15.6
 hiding = exercise.task("15.6", "What contemporary fitness hides")
-hiding.draws(
-    "What is seen hardly changes; what this side gains and the other takes away grows and grows.",
-    "generation", "change of fitness", kind="curves", call=("red_queen", RACE),
-)  # fmt: skip
+of_matrices(hiding, 3, "red_queen", parts=("change",), name="what_is_seen")(matrices)
+of_matrices(hiding, 7, "red_queen", parts=("own", "others"), name="what_is_hidden")(matrices)
 
-
-@of_matrices(hiding, 3, "red_queen", parts=("change",))
-def what_is_seen(rng):
-    yield from matrices(rng)
-
-
-@of_matrices(hiding, 7, "red_queen", parts=("own", "others"))
-def what_is_hidden(rng):
-    yield from matrices(rng)
-
-
-# ------------------------------------------------------------------- 15.7
 sure = exercise.task("15.7", "How sure is it?", refused=TOOL)
 
 
@@ -300,7 +218,6 @@ def of_any_measure(rng):
         yield case(rng, shape, rng.normal(size=shape), resamples=resamples)
 
 
-# ------------------------------------------------------------------- 15.8
 behaviour = exercise.task("15.8", "How do they behave?")
 NO_POSES = "poses have the shape (T + 1, 2, 3)"
 of_poses = partial(same, tolerance=1e-7, off={"square": NO_POSES, "one": NO_POSES})
@@ -343,15 +260,9 @@ def along_the_walls(rng):
     return np.concatenate([np.array(ways).swapaxes(0, 1), heading], axis=2)
 
 
-behaviour.draws(
-    "Two robots that drive about, described by numbers: predator on the left, prey on the right.",
-    "robot", "", kind="bars", call=("describe", wandering(np.random.default_rng(1), 150)),
-)  # fmt: skip
-
-
-@of_poses(behaviour, 5, "describe", parts=("speed", "turning", "backwards"))
-def how_they_move(rng):
-    yield from walks(rng)
+of_poses(behaviour, 5, "describe", parts=("speed", "turning", "backwards"), name="how_they_move")(
+    walks
+)
 
 
 @of_poses(behaviour, 4, "describe", parts=("facing", "wall", "distance"))
