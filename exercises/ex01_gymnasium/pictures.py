@@ -1,19 +1,9 @@
-"""What `botschool show 1` draws of each task, and what to look for in the files made."""
+"""What `botschool show` draws of the tasks of exercise 1."""
 
 import numpy as np
 
 from botschool.grading import Picture, all_over
 
-CAPTIONS = {
-    "random_agents.png": (
-        "Sixty episodes of a random agent in each of five problems. In which does it *ever* do "
-        "better than usual? Where it never does, it has nothing to learn from."
-    ),
-    "balance.mp4": (
-        "A rule that was written by hand keeps the pole up. Watch the cart: what does the rule not "
-        "look at?"
-    ),
-}
 PICTURES = {}
 PICTURES["1.1"] = Picture(
     "Each bar is the lowest or highest value of one of the six numbers that Acrobot observes.",

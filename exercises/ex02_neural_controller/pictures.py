@@ -1,19 +1,9 @@
-"""What `botschool show 2` draws of each task, and what to look for in the files made."""
+"""What `botschool show` draws of the tasks of exercise 2."""
 
 import numpy as np
 
 from botschool.grading import Picture
 
-CAPTIONS = {
-    "random_networks.png": (
-        "Two hundred random networks in each problem. Most are useless; look for the few on the "
-        "right, which nobody has thought about."
-    ),
-    "luckiest.mp4": (
-        "The luckiest of the 200, found without any learning. Watch how it follows the pole, "
-        "always a little late."
-    ),
-}
 PICTURES = {}
 PICTURES["2.1"] = Picture(
     "Both layers' weights spread around 0 as a bell, nearly all between -0.3 and 0.3.",

@@ -1,23 +1,9 @@
-"""What `botschool show 3` draws of each task, and what to look for in the files made."""
+"""What `botschool show` draws of the tasks of exercise 3."""
 
 import numpy as np
 
 from botschool.grading import Picture
 
-CAPTIONS = {
-    "curves.png": (
-        "Three runs of evolution on Pendulum. Where the band is wide, some have found the trick, "
-        "and others have not."
-    ),
-    "pendulum.mp4": (
-        "Evolved from random numbers. The motor is too weak to lift the pendulum: watch how it "
-        "swings *away* from its goal first, to gather speed."
-    ),
-    "cartpole.mp4": (
-        "The same strategy, another problem. Watch the ten neurons: which of them change before "
-        "the cart turns?"
-    ),
-}
 PICTURES = {}
 PICTURES["3.1"] = Picture(
     "Each row is an individual: its biases, on the left, are 0, its weights small and random.",

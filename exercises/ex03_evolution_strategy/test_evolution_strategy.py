@@ -19,25 +19,12 @@ from itertools import pairwise
 
 import numpy as np
 
-from botschool.course import Robot
 from botschool.grading import Exercise, Student, expect, expect_array, expect_fields, same, seed_of
+from botschool.grading.declare.rows import in_common, noise_of, same_rows
+from botschool.grading.run.rewiring import Disguised
 
 exercise = Exercise(3, "Evolution strategy", file="evolution_strategy.py")
 TOOL = ("botschool.evolution.algorithms.sss:SSS.tell",)
-
-
-def same_rows(some: np.ndarray, others: np.ndarray) -> np.ndarray:
-    """Whether row i of some is row j of others, but for single precision; shape (some, others)."""
-    found = np.ones((len(some), len(others)), dtype=bool)
-    for a, b in ((some[:, :9], others[:, :9]), (some, others)):  # few pairs have nine in common
-        i, j = np.nonzero(found)
-        found[i, j] = np.all(np.abs(a[i] - b[j]) <= 1e-6 * (1 + np.abs(b[j])), axis=1)
-    return found
-
-
-def in_common(some: np.ndarray, others: np.ndarray) -> int:
-    """How many rows of some are rows of others, too."""
-    return int(same_rows(some, others).any(axis=1).sum())
 
 
 initial = exercise.task("3.1", "The initial population")
@@ -140,14 +127,6 @@ def steps(module, population, fitness, mutrate, seed):
     for each in (rng, numpy.random.default_rng(seed)):
         after.append(module.next_population(before.copy(), same.copy(), mutrate, each))
     return [numpy.array(each, dtype=float) for each in after], unchanged
-
-
-def noise_of(after, better):
-    """The rows that are not of the better half, minus their nearest parents, and these."""
-    new = after[~same_rows(after, better).any(axis=1)]
-    apart = new[:, None] - better[None]
-    parents = np.abs(apart).mean(axis=2).argmin(axis=1)
-    return apart[np.arange(len(new)), parents], parents
 
 
 def changes_of(answer, population, fitness, mutrate, seed):
@@ -428,35 +407,19 @@ def a_single_replication(rng):
 training = exercise.task("3.7", "CartPole and Pendulum", seconds=90, needs=("3.1", "3.2", "3.4"))
 
 
-def trained(module, ask, environment, seed, size):
-    """Trains with a robot of the grader, whose parameters count with gains."""
-    from botschool.grading.run.rewiring import asking
-
-    with asking(environment, size, ask):
-        return module.train(environment, seed)
-
-
 def expect_trained(student: Student, environment: str, index: int, wanted: float) -> None:
     """Two of two or three seeds, on a robot whose parameters have gains of either sign."""
-    robot, rng = Robot(environment), np.random.default_rng(exercise.seed(index))
-    size, found, means = robot.nbiases + robot.nweights, [], []
-    gains = rng.choice([-1.0, 1.0], size=size) * 1.25 ** rng.uniform(-1, 1, size)
-    seeds = [seed_of(rng) for _ in range(3)]
+    robot, found, means = Disguised(environment, exercise.seed(index)), [], []
+    seeds = [seed_of(robot.rng) for _ in range(3)]
 
     def train(seed):
         said = f"train({environment!r}, seed={seed})"
-        own = {"environment": environment, "gains": gains}
-        answer = student.run(trained, environment, seed, size, said=said, robot=own)
-        parameters = expect_array(said, answer, (size,))
-        nearest = student.rewired.nearest(parameters)
-        tried = nearest is not None and np.allclose(nearest, parameters, rtol=1e-5, atol=1e-5)
-        expect(tried, f"{said} should return a candidate that it gave to robot.evaluate.")
-        return parameters
+        return robot.trained(student, "train", environment, seed, said=said)
 
     for seed in seeds:
         if len(means) < 2 or sum(mean >= wanted for mean in means) == 1:
             found.append(train(seed))
-            means += robot.evaluate(gains * found[-1:], seed_of(rng), episodes=20).tolist()
+            means += robot.means(found[-1:], seed_of(robot.rng), 20).tolist()
     said = student.said
     expect(
         sum(mean >= wanted for mean in means) > 1,

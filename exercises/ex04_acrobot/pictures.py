@@ -1,19 +1,9 @@
-"""What `botschool show 4` draws of each task, and what to look for in the files made."""
+"""What `botschool show` draws of the tasks of exercise 4."""
 
 import numpy as np
 
 from botschool.grading import Picture, all_over
 
-CAPTIONS = {
-    "curves.png": (
-        "Three runs of 20 million steps. Each mark of the horizontal axis is ten times the one "
-        "before: most is learnt early."
-    ),
-    "acrobot.mp4": (
-        "Two links and one weak motor between them. Count the swings until the tip is above the "
-        "line."
-    ),
-}
 PICTURES = {}
 
 

@@ -1,33 +1,10 @@
-"""What `botschool show 5` draws of each task, and what to look for in the files made."""
+"""What `botschool show` draws of the tasks of exercise 5."""
 
 import numpy as np
 
 from botschool.course import genotype_file
 from botschool.grading import Picture
 
-CAPTIONS = {
-    "my_walker.png": (
-        "The body of the walker that was evolved here, at rest. Grey fans show how far its joints "
-        "turn."
-    ),
-    "my_walker.mp4": (
-        "Nobody drew this body, and nobody programmed this walk: both evolved together. Which "
-        "segments push?"
-    ),
-    "walkers.png": (
-        "Three walkers that evolved for longer. They found three bodies: which of them would you "
-        "have invented?"
-    ),
-    "matrix.png": (
-        "Each brain in each body. The diagonal is at home; elsewhere a brain drives a body that it "
-        "does not know."
-    ),
-    "walker1.mp4": "The first walker. Watch where it touches the ground, and when.",
-    "walker2.mp4": "The second walker, another body with another walk.",
-    "walker3.mp4": (
-        "The third walker. Could its brain move the first one's body? The matrix says it."
-    ),
-}
 PICTURES = {}
 
 

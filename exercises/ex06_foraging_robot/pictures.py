@@ -1,27 +1,10 @@
-"""What `botschool show 6` draws of each task, and what to look for in the files made."""
+"""What `botschool show` draws of the tasks of exercise 6."""
 
 import numpy as np
 
 from botschool.course import genotype_file
 from botschool.grading import Picture
 
-CAPTIONS = {
-    "forager.mp4": (
-        "A robot with eight infrared sensors and ten memory cells looks for the cylinder, and not "
-        "for the walls. Watch how it tells them apart: it bounces off a wall, and stays at the "
-        "cylinder."
-    ),
-    "trajectories.png": (
-        "Paths from six starts, redder where the sensors see more. In the middle the robot forgets "
-        "everything after each step; on the right its memory is frozen. Count the crosses: they "
-        "are collisions."
-    ),
-    "mind_seed*.png": (
-        "One episode over time: sensors, memory cells, wheels, and what the wheels *would* do if "
-        "the robot saw nothing now. Where it sees nothing and acts otherwise than at first, it "
-        "acts on its memory."
-    ),
-}
 PICTURES = {}
 
 

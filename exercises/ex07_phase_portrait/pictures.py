@@ -1,19 +1,9 @@
-"""What `botschool show 7` draws of each task, and what to look for in the files made."""
+"""What `botschool show` draws of the tasks of exercise 7."""
 
 import numpy as np
 
 from botschool.grading import Picture
 
-CAPTIONS = {
-    "portraits.png": (
-        "Each picture shows the whole behaviour: grey arrows lead from every state to the next. "
-        "Evolution turns one river into another, whose water runs to the middle, where the "
-        "pendulum stands."
-    ),
-    "pendulum.mp4": (
-        "The same robot as in the last picture. Find its swing-up among the orange arrows."
-    ),
-}
 PICTURES = {}
 TURN = np.linspace(-3, 3, 61)
 PICTURES["7.1"] = Picture(

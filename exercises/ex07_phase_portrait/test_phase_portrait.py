@@ -12,8 +12,8 @@ first stages reach -1273 to -1138, the middle ones -739 to -638 (margin 421), th
 import numpy as np
 from PIL import Image
 
-from botschool.course import Robot
 from botschool.grading import Exercise, Student, Wrong, expect, expect_array, same, seed_of
+from botschool.grading.run.rewiring import Disguised
 
 PENDULUM = "gymnasium.envs.classic_control.pendulum"
 exercise = Exercise(7, "Phase portrait", file="phase_portrait.py", imports=(PENDULUM,))
@@ -206,30 +206,16 @@ SEEDS = (25, 30)
 NEW = "on average in 100 new episodes (the robot's parameters count with other signs and sizes)"
 
 
-def evolved(module, ask, seed, size):
-    """Three stages of a robot of the grader, whose parameters count with gains."""
-    from botschool.grading.run.rewiring import asking
-
-    with asking("Pendulum-v1", size, ask):
-        return module.three_stages(seed)
-
-
 @exercise.cached
 def stages_for(student: Student, index: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The student's stages, what they reach in new episodes, and the first candidates."""
-    robot, rng = Robot("Pendulum-v1"), np.random.default_rng(exercise.seed(28))
-    size, seed = robot.nbiases + robot.nweights, exercise.seed(index) % 100_000
-    gains = rng.choice([-1.0, 1.0], size=size) * 1.25 ** rng.uniform(-1, 1, size)
-    said, own = f"three_stages(seed={seed})", {"environment": "Pendulum-v1", "gains": gains}
-    stages = expect_array(said, student.run(evolved, seed, size, said=said, robot=own), (3, size))
-    for row in stages:
-        near = student.rewired.nearest(row)
-        tried = near is not None and np.allclose(near, row, rtol=1e-5, atol=1e-5)
-        expect(tried, f"{said} should return candidates as they were evaluated: one never was.")
+    robot, seed = Disguised("Pendulum-v1", exercise.seed(28)), exercise.seed(index) % 100_000
+    said = f"three_stages(seed={seed})"
+    stages = robot.trained(student, "three_stages", seed, said=said, rows=(3,))
     early = student.rewired.first(100)
     begins = bool(np.isclose(early, stages[0], rtol=1e-5, atol=1e-5).all(axis=1).any())
     expect(begins, f"{said}: the first stage should be among the candidates evaluated first.")
-    return stages, robot.evaluate(stages * gains, exercise.seed(26), episodes=100), early
+    return stages, robot.means(stages, exercise.seed(26), 100), early
 
 
 @three.check(5)

@@ -1,19 +1,9 @@
-"""What `botschool show 8` draws of each task, and what to look for in the files made."""
+"""What `botschool show` draws of the tasks of exercise 8."""
 
 import numpy as np
 
 from botschool.grading import Picture
 
-CAPTIONS = {
-    "stability.png": (
-        "Nine runs with rash settings, coloured by how far each of them falls back. Dashed lines "
-        "mark the largest fall."
-    ),
-    "pendulum.mp4": (
-        "Evolved by the strategy that was written here. Watch the torque, the output neuron: when "
-        "does it let go?"
-    ),
-}
 PICTURES = {}
 PICTURES["8.1"] = Picture(
     "Candidates around the centre, at (1, 2): each has its twin on the other side.",

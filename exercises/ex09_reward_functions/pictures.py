@@ -1,22 +1,9 @@
-"""What `botschool show 9` draws of each task, and what to look for in the files made."""
+"""What `botschool show` draws of the tasks of exercise 9."""
 
 import numpy as np
 
 from botschool.grading import Picture
 
-CAPTIONS = {
-    "gaits.png": (
-        "Two rewards, two robots: one is paid for standing as well, the other for its way alone. "
-        "Compare how far they come and what they earn it with."
-    ),
-    "hopper_v0.mp4": (
-        "Paid for every step in which it stands. It found the easiest way to be rich: it is a "
-        "statue. Drag the slider to the end."
-    ),
-    "hopper_v5.mp4": (
-        "Paid for its way alone, with the same body. Watch the foot: how short is it on the ground?"
-    ),
-}
 PICTURES = {}
 PICTURES["9.1"] = Picture(
     "What a hopper that moves at random is paid for its way, until it falls.",

@@ -1,20 +1,10 @@
-"""What `botschool show 10` draws of each task, and what to look for in the files made."""
+"""What `botschool show` draws of the tasks of exercise 10."""
 
 import numpy as np
 
 from botschool.course.robots import random_robot
 from botschool.grading import Picture
 
-CAPTIONS = {
-    "balance.mp4": (
-        "Evolved in an environment that was built here. The robot leans to where it wants to go, "
-        "and drives after itself."
-    ),
-    "balance.png": (
-        "How far the robot leans in twenty episodes of each controller. Lines that end early have "
-        "fallen."
-    ),
-}
 PICTURES = {}
 PICTURES["10.1"] = Picture(
     "What each link of a robot weighs.",

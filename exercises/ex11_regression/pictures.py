@@ -1,19 +1,9 @@
-"""What `botschool show 11` draws of each task, and what to look for in the files made."""
+"""What `botschool show` draws of the tasks of exercise 11."""
 
 import numpy as np
 
 from botschool.grading import Picture
 
-CAPTIONS = {
-    "features.png": (
-        "On the left what a network answers over its two inputs, with a black line where it "
-        "changes its mind; then what each hidden neuron adds. How few soft lines make a disc?"
-    ),
-    "losses.png": (
-        "Three ways to train on the same data. Which costs less: many small steps, or inputs of "
-        "equal size?"
-    ),
-}
 PICTURES = {}
 LINE = np.linspace(-6, 6, 61)[:, None]
 STEPS = np.array([[1.0], [3.0], [-1.0]]), np.array([0.0, 3.0, 2.0])

@@ -17,6 +17,7 @@ import numpy as np
 
 from botschool.grading import Exercise, Student, expect, expect_array, same, seed_of, show
 from botschool.grading.declare.libraries import BACKPROPAGATION
+from botschool.grading.run.walks import multiplied, watched
 
 exercise = Exercise(
     11, "Back-propagation", file="regression.py", imports=("torch", "torch._dynamo"), extras=("rl",)
@@ -133,29 +134,6 @@ def gradient_by_torch(rng):
     yield from saturated(rng)
 
 
-def multiplied(module, factor, *arguments):
-    """gradient_by_torch(...), where torch multiplies all gradients by {0},"""
-    import torch
-
-    from botschool.grading.run.replaced import replaced
-
-    def larger(tensors):
-        with torch.enable_grad():
-            one = torch.is_tensor(tensors)
-            return factor * tensors if one else [factor * each for each in tensors]
-
-    def instead(own):
-        def of_larger(*given, **named):
-            for name in {"tensors", "outputs"} & {*named}:
-                named[name] = larger(named[name])
-            return own(*map(larger, given[:1]), *given[1:], **named)
-
-        return of_larger
-
-    with replaced(torch.autograd, "backward", instead), replaced(torch.autograd, "grad", instead):
-        return module.gradient_by_torch(*arguments)
-
-
 @same(by_torch, 3, multiplied, SINGLE, parts=NAMES)
 def what_torch_has_found(rng):
     for sizes in SIZES[1:3]:
@@ -204,23 +182,6 @@ def momentum(rng):
 corners = exercise.task("11.5", "Exclusive or", seconds=60, needs=("11.1", "11.4"))
 GRADIENTS = 30
 """That a training must have computed at least; the solution computes 300 before its first look."""
-
-
-def watched(module, name, arguments, stuck):
-    """What the student's function returns, as numbers, and how it was trained."""
-    import numpy
-    import torch
-
-    from botschool.grading.run.walks import watching
-
-    if name == "learn":
-        arguments[:2] = [torch.tensor(each, dtype=torch.float32) for each in arguments[:2]]
-    with watching(module, ("gradient_by_hand", "gradient_by_torch"), stuck) as walks:
-        answer = getattr(module, name)(*arguments)
-    found, *more = answer if name == "fit" else (answer, walks.repeated)
-    layers = (found.hidden.weight, found.hidden.bias, found.output.weight, found.output.bias)
-    parameters = [layer.detach().numpy() for layer in layers]
-    return [parameters, walks.gradients, walks.led_to(parameters), *map(numpy.asarray, more)]
 
 
 def expect_trained(said: str, gradients: int, led: bool) -> None:

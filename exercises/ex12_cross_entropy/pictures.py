@@ -1,16 +1,9 @@
-"""What `botschool show 12` draws of each task, and what to look for in the files made."""
+"""What `botschool show` draws of the tasks of exercise 12."""
 
 import numpy as np
 
 from botschool.grading import Picture
 
-CAPTIONS = {
-    "learning.png": (
-        "Each dot is an episode, the elite in colour. Look how the elite of one iteration becomes "
-        "the ground on which the next one stands. Below: what each policy does, and where."
-    ),
-    "pendulum.mp4": "Three episodes of the pendulum after learning from its own best attempts.",
-}
 PICTURES = {}
 RISING = np.linspace(-5, 5, 51)
 PICTURES["12.1"] = Picture(

@@ -1,23 +1,9 @@
-"""What `botschool show 13` draws of each task, and what to look for in the files made."""
+"""What `botschool show` draws of the tasks of exercise 13."""
 
 import numpy as np
 
 from botschool.grading import Picture
 
-CAPTIONS = {
-    "cartpole.mp4": (
-        "A policy that was trained by a loop written here. It never learnt physics: it learnt what "
-        "was better than expected."
-    ),
-    "own_training.png": (
-        "Ten trainings by this loop, beside ten by the engine's own. Only the seeds differ: look "
-        "at all before you judge."
-    ),
-    "hidden_layer.png": (
-        "What 64 neurons respond to, before and after the training. Look for the stripes: they "
-        "follow the pole's angle and speed."
-    ),
-}
 PICTURES = {}
 PULSE = np.zeros((60, 1))
 PULSE[[20, 50]] = 1.0

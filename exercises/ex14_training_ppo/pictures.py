@@ -1,20 +1,9 @@
-"""What `botschool show 14` draws of each task, and what to look for in the files made."""
+"""What `botschool show` draws of the tasks of exercise 14."""
 
 import numpy as np
 
 from botschool.grading import Picture
 
-CAPTIONS = {
-    "success.png": (
-        "How the trainings ended, variation by variation, and evolution beside PPO at equal steps. "
-        "Which differences are larger than the spread of their seeds?"
-    ),
-    "indicators.png": (
-        "What every training has logged. Which curve tells early that a training fails?"
-    ),
-    "CartPole-v1.mp4": "The best of all trainings on CartPole. Would you bet on its settings?",
-    "*.mp4": "The best of all trainings on the other problem.",
-}
 PICTURES = {}
 
 

@@ -1,27 +1,9 @@
-"""What `botschool show 15` draws of each task, and what to look for in the files made."""
+"""What `botschool show` draws of the tasks of exercise 15."""
 
 import numpy as np
 
 from botschool.grading import Picture
 
-CAPTIONS = {
-    "chases.html": (
-        "A predator and its prey meet at three times of their arms race. Watch who tacks and who "
-        "drives backwards: both have learnt it from each other."
-    ),
-    "chases.png": (
-        "Nine chases from above, early to late predators against early to late prey. A cross marks "
-        "where the prey was caught, a disc where it escaped."
-    ),
-    "tournament.png": (
-        "Each generation against all generations of the other side. In an arms race the colours "
-        "change from corner to corner."
-    ),
-    "red_queen.png": (
-        "Black is what one sees while they evolve: hardly anything. Underneath, in colour, both "
-        "sides gain all the time, each against the other."
-    ),
-}
 PICTURES = {}
 PICTURES["15.1"] = Picture(
     "Predator and prey, from the rings to the discs: the chase ends where they touch.",

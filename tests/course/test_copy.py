@@ -17,7 +17,7 @@ from botschool.grading.classes.exporting import export
 from botschool.grading.copies import starting
 from botschool.grading.copies.release import release
 from botschool.grading.declare.exercise import load_exercise
-from botschool.grading.report.album import captioned
+from botschool.grading.report.album import captioned, captions
 from botschool.grading.report.showing import show
 from browser import Browser, find_browser
 from test_nbgrader import every_second, own_function, partly
@@ -68,8 +68,8 @@ def test_finished_file_run_by_itself_makes_its_pictures(copy, number, capfd):
     images = [path for path in made if path.suffix in (".png", ".mp4", ".html")]
     assert images and all(path.stat().st_size > 1000 for path in images)
     exercise = load_exercise(number, copy)
-    shown = captioned(exercise, [path for path in made if path.parent.name[:2] == "ex"])
-    assert shown and {each.says for each in shown} <= set(exercise.captions.values())
+    shown = captioned(exercise, [path for path in made if path.parent.name[:2] == "ex"], copy)
+    assert shown and {each.says for each in shown} <= set(captions(number, copy).values())
     outside = set(os.listdir(copy)) - set(os.listdir(building.ROOT)) - {".release.json", "results"}
     assert not outside
 

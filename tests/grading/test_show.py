@@ -15,7 +15,7 @@ from botschool.grading.declare.exercise import (
 )
 from botschool.grading.declare.picture import KINDS, Picture
 from botschool.grading.packed import pack
-from botschool.grading.report.album import captioned, write_album
+from botschool.grading.report.album import captioned, captions, write_album
 from botschool.grading.report.checkpoints import OPEN, RIGHT, WRONG, checkpoints
 from botschool.grading.report.drawing import Panel, chosen, draw, panels_of
 from botschool.grading.report.progress import remember
@@ -288,7 +288,7 @@ def test_many_tasks_have_a_picture_and_every_file_a_caption():
     assert len(drawn) >= 70
     assert all(task.picture.says.endswith(".") and len(task.picture.says) > 20 for task in drawn)
     assert all(any(task.picture for task in each[:2]) for each in tasks.values())
-    assert all(load_exercise(n, ROOT).captions for n in tasks)
+    assert all(len(captions(n, ROOT)) >= 2 for n in tasks)
 
 
 def test_pictures_lie_beside_the_grader_plain_or_packed(tmp_path, monkeypatch):
@@ -306,7 +306,7 @@ def test_pictures_lie_beside_the_grader_plain_or_packed(tmp_path, monkeypatch):
     assert found.state == RIGHT and found.panels[0].yours.shape == (60,)
     (copy / PICTURES).write_text("LINE = 1\n")
     exercise = load_exercise(8, tmp_path)
-    assert not exercise.captions and not any(task.picture for task in exercise.tasks)
+    assert not any(task.picture for task in exercise.tasks)
 
 
 def test_the_report_names_the_command(capsys):
@@ -326,11 +326,11 @@ def made(tmp_path):
     """Exercise 3 of a course of its own, with a picture, a film, and a film with its replay."""
     exercise = Exercise(3, "Tiny", file="tiny.py")
     exercise.task("3.1", "One").check(100)(lambda student: None)
-    exercise.captions = {"b.mp4": "Watch `it` *move*.", "c.png": "A curve & more.", "a.mp4": "A."}
+    files = "- `b.mp4`: watch `it`\n  *move*.\n- `c.png`: a curve & more.\n- `a.mp4`: A.\n"
     folder = tmp_path / "exercises" / "ex03_tiny"
     folder.mkdir(parents=True)
     questions = "## Questions to think about\n\n1. Why? See [this](../x.md).\n"
-    (folder / "README.md").write_text(f"# T\n\n{questions}\n## Literature\n\nNone.\n")
+    (folder / "README.md").write_text(f"# T\n\n{files}\n{questions}\n## Literature\n\nNone.\n")
     solutions = tmp_path / "solutions" / "ex03_tiny"
     solutions.mkdir(parents=True)
     (solutions / "README.md").write_text(
@@ -348,7 +348,7 @@ def made(tmp_path):
 def write(made, tmp_path, monkeypatch, more=""):
     exercise, results = made
     monkeypatch.setattr("botschool.grading.report.progress.load_exercise", lambda *_: exercise)
-    shown = captioned(exercise, sorted(results.iterdir()))
+    shown = captioned(exercise, sorted(results.iterdir()), tmp_path)
     return shown, write_album(exercise, shown, results, tmp_path, more).read_text()
 
 
@@ -371,7 +371,7 @@ def test_the_page_in_a_browser(made, tmp_path, monkeypatch):
     write(made, tmp_path, monkeypatch)
     (made[1] / "a.mp4").unlink()
     page = write_album(
-        made[0], captioned(made[0], [*made[1].glob("[bc].*")]), made[1], tmp_path, ""
+        made[0], captioned(made[0], [*made[1].glob("[bc].*")], tmp_path), made[1], tmp_path, ""
     )
     browser = Browser(tmp_path / "profile")
     try:

@@ -131,8 +131,6 @@ class Exercise:
         """A Python file with our own functions of the tasks that others need (references.py)."""
         self.grader: Any = None
         """The module that declares the exercise: its drivers and inputs."""
-        self.captions: dict[str, str] = {}
-        """What to look for in the files that the finished exercise makes, by their names."""
         self.known = Known(number)
         """Our solution and its known mistakes, to compare with wrong answers."""
         self.ours: Any = None
@@ -286,8 +284,7 @@ def load_exercise(number: int, root: Path | None = None) -> Exercise:
     exercise.grader = exercise.grader or module
     if (folder / PICTURES).is_file():
         shown = _module(f"pictures_{number}", folder / PICTURES)
-        exercise.captions = vars(shown).get("CAPTIONS", {})  # a student's own file has none
-        for id, picture in vars(shown).get("PICTURES", {}).items():
+        for id, picture in vars(shown).get("PICTURES", {}).items():  # a student's own has none
             exercise.find(id).picture = picture
     root = root or course_root()
     solution = root / "solutions" / folder.name / exercise.file

@@ -18,6 +18,10 @@ PAGE = "all.html"
 """The page in results/exNN."""
 _KINDS = {".png": "image/png", ".mp4": "video/mp4", ".html": "text/html"}
 _QUESTIONS = re.compile(r"^## Questions[^\n]*\n(.*?)(?=^## |\Z)", re.DOTALL | re.MULTILINE)
+_MADE = re.compile(
+    r"^- `([^`\s]+\.(?:png|mp4|html))`: (.+?)(?=^- |^$|\Z)", re.DOTALL | re.MULTILINE
+)
+"""In the text of an exercise: a file that it makes, and what to look for in it."""
 _LINK = re.compile(r"(?<!!)\[([^\]]*)\]\((?!https?:)[^)]*\)")
 _STYLE = """
 :root { color-scheme: light dark;
@@ -51,13 +55,21 @@ class Shown:
     """What to look for in it."""
 
 
-def captioned(exercise: Exercise, made: list[Path]) -> list[Shown]:
+def captions(number: int, root: Path) -> dict[str, str]:
+    """Return what the exercise's text says about each file that the finished exercise makes."""
+    text = folder_of(number, root) / "README.md"
+    found = _MADE.findall(text.read_text(encoding="utf-8")) if text.is_file() else []
+    return {name: " ".join(f"{says[:1].upper()}{says[1:]}".split()) for name, says in found}
+
+
+def captioned(exercise: Exercise, made: list[Path], root: Path) -> list[Shown]:
     """Return the files of a finished exercise that the page shows, in the order of its captions.
 
     A film is left out if there is a replay of the same name.
     """
     names = {path.name for path in made}
-    order = list(exercise.captions)
+    said = captions(exercise.number, root)
+    order = list(said)
     found = []
     for path in made:
         if path.suffix not in _KINDS or path.name == PAGE:
@@ -66,7 +78,7 @@ def captioned(exercise: Exercise, made: list[Path]) -> list[Shown]:
             continue
         named = [k for k in order if fnmatch(path.name, k) or fnmatch(path.name, _film(k))]
         place = order.index(named[0]) if named else len(order)
-        says = exercise.captions[named[0]] if named else path.stem.replace("_", " ").capitalize()
+        says = said[named[0]] if named else path.stem.replace("_", " ").capitalize()
         found.append((place, Shown(path, says)))
     return [shown for _, shown in sorted(found, key=lambda each: each[0])]
 

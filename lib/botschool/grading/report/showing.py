@@ -117,7 +117,7 @@ def show_whole(exercise: Exercise, file: Path, root: Path) -> Path | None:
         size = f"{(folder / name).stat().st_size / 1000:.0f} kB"
         what = f"{files} files" if (folder / name).is_dir() else size
         print(f"made: {os.path.relpath(folder / name)}  ({what})")
-    shown = captioned(exercise, [path for path in made if path.parent == folder])
+    shown = captioned(exercise, [path for path in made if path.parent == folder], root)
     return write_album(exercise, shown, folder, root, "") if shown else None
 
 

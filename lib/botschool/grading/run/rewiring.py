@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from botschool.errors import BotschoolError
+from botschool.grading.declare.checks import expect, expect_array
 from botschool.grading.run.pulse import alive, beat
 from botschool.grading.run.replaced import replaced
 
@@ -144,3 +145,46 @@ def asking(environment: str, size: int, ask: Callable[[Any], dict]) -> Iterator[
 
     with alive(), replaced(Robot, "evaluate", elsewhere), suppress(EnoughSeen):
         yield
+
+
+def found_in(module, ask, name, environment, size, arguments):
+    """{0}(*{3}), with robots of the grader"""
+    from botschool.grading.run.rewiring import asking
+
+    with asking(environment, size, ask):
+        return getattr(module, name)(*arguments)
+
+
+class Disguised:
+    """A robot whose parameters count with secret gains, of either sign and about as large as 1."""
+
+    def __init__(self, environment: str, seed: int) -> None:
+        """Draw the gains; `rng` draws what else the grader needs."""
+        from botschool.course.evaluation import Robot
+
+        self.environment, self.robot = environment, Robot(environment)
+        self.size = self.robot.nbiases + self.robot.nweights
+        self.rng = np.random.default_rng(seed)
+        signs = self.rng.choice([-1.0, 1.0], size=self.size)
+        self.gains = signs * 1.25 ** self.rng.uniform(-1, 1, self.size)
+
+    def trained(
+        self, student: Any, name: str, *arguments: Any, said: str, rows: tuple[int, ...] = ()
+    ) -> np.ndarray:
+        """Return the candidate that a function finds, or rows of them.
+
+        Raises Wrong if one was never evaluated.
+        """
+        own = {"environment": self.environment, "gains": self.gains}
+        given = name, self.environment, self.size, [*arguments]
+        answer = student.run(found_in, *given, said=said, robot=own)
+        found = expect_array(said, answer, (*rows, self.size))
+        for row in np.atleast_2d(found):
+            near = student.rewired.nearest(row)
+            tried = near is not None and np.allclose(near, row, rtol=1e-5, atol=1e-5)
+            expect(tried, f"{said} should return a candidate that it gave to robot.evaluate.")
+        return found
+
+    def means(self, candidates: Any, seed: int, episodes: int) -> np.ndarray:
+        """Return the mean return of each candidate over new episodes."""
+        return self.robot.evaluate(self.gains * candidates, seed, episodes=episodes)
