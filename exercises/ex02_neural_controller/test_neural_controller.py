@@ -99,11 +99,7 @@ def passed(rng, **options):
         yield network_of(rng, *layers, **options), rng.normal(size=layers[0]).astype(np.float32)
 
 
-@same(passing, 7, "forward", 1e-5)
-def weights_and_tanh(rng):
-    yield from passed(rng, biases=0)
-
-
+same(passing, 7, "forward", 1e-5, name="weights_and_tanh")(passed, biases=0)
 same(passing, 5, "forward", 1e-5, name="biases_count")(passed)
 
 
@@ -150,15 +146,8 @@ def counts_in_known_environments(rng):
     yield from LAYERS
 
 
-@same(counting, 2, made_up)
-def counts_choices_that_start_anywhere(rng):
-    yield from sized(rng, 0, 7, 5)
-
-
-@same(counting, 2, made_up)
-def counts_numbers_of_an_action(rng):
-    yield from sized(rng, -1, -1, -1)
-
+same(counting, 2, made_up, name="counts_choices_that_start_anywhere")(sized, 0, 7, 5)
+same(counting, 2, made_up, name="counts_numbers_of_an_action")(sized, -1, -1, -1)
 
 acting = exercise.task("2.4", "From outputs to an action")
 TOGETHER = {"changes": "the numbers of outputs, limits and choices belong together"}
@@ -283,9 +272,9 @@ def stacked(rng, *sizes, **options):
         yield network_of(rng, *layers, many=(n,), **options), rng.normal(size=(n, layers[0]))
 
 
-@same(batching, 7, "forward_batch", 1e-4, off=NO_CUTS)
-def equals_each_network_alone(rng):
-    yield from stacked(rng, (3, 4, 5, 2), (7, 4, 5, 2), (50, 3, 10, 1), (300, 6, 5, 3))
+same(batching, 7, "forward_batch", 1e-4, off=NO_CUTS, name="equals_each_network_alone")(
+    stacked, (3, 4, 5, 2), (7, 4, 5, 2), (50, 3, 10, 1), (300, 6, 5, 3)
+)
 
 
 def kept(module, networks, observations):

@@ -204,9 +204,7 @@ def files(rng, *generations):
         yield f"runs{count}/statS{seed_of(rng)}.npy", table_of(rng, count).ravel()
 
 
-@same(reading, 8, read_saved, parts=COLUMNS)
-def columns_are_told_apart(rng):
-    yield from files(rng, 4, 25)
+same(reading, 8, read_saved, parts=COLUMNS, name="columns_are_told_apart")(files, 4, 25)
 
 
 @same(reading, 3, read_saved, parts=("steps", "average parameter"))
@@ -214,10 +212,7 @@ def any_number_of_generations(rng):
     yield from files(rng, 2, 6, 611)
 
 
-@same(reading, 2, read_saved, parts=COLUMNS)
-def a_single_generation(rng):
-    yield from files(rng, 1)
-
+same(reading, 2, read_saved, parts=COLUMNS, name="a_single_generation")(files, 1)
 
 spread = exercise.task("4.5", "Mean and spread at equal steps")
 

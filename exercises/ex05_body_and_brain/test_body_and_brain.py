@@ -113,6 +113,7 @@ noiseStdDev = 0.5
 stepsize = 0.5
 saveeach = 60
 """
+
 running = exercise.task("5.5", "Evolve walkers")
 
 
@@ -181,15 +182,8 @@ def genotypes(rng, count):
         yield tuple(rng.normal(size=(count, 46 * hidden + 10 + BODY + 2 * OBSERVATIONS)))
 
 
-@same(surgery, 3, "body_of", 0)
-def body_is_cut_out(rng):
-    yield from genotypes(rng, 1)
-
-
-@same(surgery, 7, "transplant", 0)
-def brain_in_another_body(rng):
-    yield from genotypes(rng, 2)
-
+same(surgery, 3, "body_of", 0, name="body_is_cut_out")(genotypes, 1)
+same(surgery, 7, "transplant", 0, name="brain_in_another_body")(genotypes, 2)
 
 crossing = exercise.task("5.7", "The co-adaptation matrix", needs=("5.6",))
 

@@ -87,20 +87,9 @@ def slopes(rng, wdecay):
         yield gradient, centre, wdecay
 
 
-@same(decay, 2, "descent")
-def no_decay(rng):
-    yield from slopes(rng, 0)
-
-
-@same(decay, 4, "descent")
-def decay_in_proportion(rng):
-    yield from slopes(rng, 1)
-
-
-@same(decay, 4, "descent")
-def decay_by_sign(rng):
-    yield from slopes(rng, 2)
-
+same(decay, 2, "descent", name="no_decay")(slopes, 0)
+same(decay, 4, "descent", name="decay_in_proportion")(slopes, 1)
+same(decay, 4, "descent", name="decay_by_sign")(slopes, 2)
 
 optimiser = exercise.task("8.5", "Adam", refused=OPENAI_ES)
 adam = partial(same, tolerance=1e-7, parts=("the new centre", "the new m", "the new v"))

@@ -119,9 +119,9 @@ def components(answer, trajectory):
     return answer | {"the names of its components": ", ".join(sorted(map(str, answer)))}
 
 
-@same(standard, 6, "components_v0", 1e-7, view=components)
-def rebuilds_version_0(rng):
-    yield from trajectories(rng, *ROBOTS)
+same(standard, 6, "components_v0", 1e-7, view=components, name="rebuilds_version_0")(
+    trajectories, *ROBOTS
+)
 
 
 @same(standard, 5, "components_v0", 1e-4)
@@ -130,26 +130,12 @@ def rebuilds_version_0_of_real_episodes(rng):
 
 
 evolved = exercise.task("9.4", "Version 5", needs=("9.1", "9.2"))
-
-
-@same(evolved, 4, "reward_v5", 1e-6)
-def rewards_progress_alone(rng):
-    yield from trajectories(rng, "Hopper", "Walker2D")
-
-
-@same(evolved, 3, "reward_v5", 1e-6)
-def rewards_half_cheetahs(rng):
-    yield from trajectories(rng, "HalfCheetah")
-
-
-@same(evolved, 3, "reward_v5", 1e-6)
-def rewards_ants(rng):
-    yield from trajectories(rng, "Ant")
-
-
-@same(evolved, 4, "reward_v5", 1e-6)
-def rewards_humanoids(rng):
-    yield from trajectories(rng, "Humanoid")
+same(evolved, 4, "reward_v5", 1e-6, name="rewards_progress_alone")(
+    trajectories, "Hopper", "Walker2D"
+)
+same(evolved, 3, "reward_v5", 1e-6, name="rewards_half_cheetahs")(trajectories, "HalfCheetah")
+same(evolved, 3, "reward_v5", 1e-6, name="rewards_ants")(trajectories, "Ant")
+same(evolved, 4, "reward_v5", 1e-6, name="rewards_humanoids")(trajectories, "Humanoid")
 
 
 @same(evolved, 3, "reward_v5", 1e-4)

@@ -245,9 +245,9 @@ def steps(rng, *courses):
         yield "step(), actions", lean, [0.0, 0.0], speed, between(rng, -1, 1, n)
 
 
-@same(stepping, 4, on_stage, 1e-4, parts=("the observation", "the info"))
-def moves_one_step(rng):
-    yield from steps(rng, (1, 0.0, 1), (1, 0.0, 12), (-1, 3.0, 12), (1, -3.0, 12), (-1, 23.0, 6))
+same(stepping, 4, on_stage, 1e-4, parts=("the observation", "the info"), name="moves_one_step")(
+    steps, (1, 0.0, 1), (1, 0.0, 12), (-1, 3.0, 12), (1, -3.0, 12), (-1, 23.0, 6)
+)
 
 
 @once_more(stepping, 3, on_stage, 1e-5, parts=("the reward", "the reward is an array"))
@@ -255,9 +255,9 @@ def rewards(rng):
     yield from steps(rng, (1, 0.0, 1), (-1, 3.0, 6), (1, -3.0, 6), (-1, 23.0, 6), (1, 0.0, 110))
 
 
-@once_more(stepping, 2, on_stage, parts=("terminated", "truncated"))
-def ends_when_fallen(rng):
-    yield from steps(rng, (1, 0.0, 110), (-1, 3.0, 110), (1, -3.0, 110), (-1, 23.0, 6))
+once_more(stepping, 2, on_stage, parts=("terminated", "truncated"), name="ends_when_fallen")(
+    steps, (1, 0.0, 110), (-1, 3.0, 110), (1, -3.0, 110), (-1, 23.0, 6)
+)
 
 
 @once_more(stepping, 1, on_stage)
@@ -273,10 +273,9 @@ def draws_in_a_window_only(rng):
         yield from ((*each, mode) for each in steps(rng, (1, 0.0, 2), (1, 0.0, 4)))
 
 
-@once_more(stepping, 2, on_stage, parts=("truncated",))
-def leaves_the_time_limit_to_gymnasium(rng):
-    yield from steps(rng, (1, 0.0, 510))
-
+once_more(stepping, 2, on_stage, parts=("truncated",), name="leaves_the_time_limit_to_gymnasium")(
+    steps, (1, 0.0, 510)
+)
 
 registering = exercise.task("10.7", "A name for the environment", seconds=40)
 
@@ -340,7 +339,9 @@ def registers_on_import(rng):
 
 
 # ------------------------------------------------------- 10.9 and 10.10
+
 evolving = exercise.task("10.9", "Evolve a controller", seconds=240)
+
 training = exercise.task("10.10", "Train a controller", seconds=300, packages=("rl",))
 TWIN = {"problem": "SpatialBalanceBot-v0", "signs": [1, 1, 1], "side": 1}
 GYROSCOPE, WHEELS = TWIN | {"signs": [1, -1, 1]}, TWIN | {"signs": [1, 1, -1], "side": -1}

@@ -85,15 +85,8 @@ def activations(rng, what):
     yield what, patterns, *(1000 * e for e in parameters)  # single precision has no e ** 100
 
 
-@same(network, 3, activated, 1e-4)
-def features_are_logistic(rng):
-    yield from activations(rng, "features")
-
-
-@same(network, 3, activated, 1e-4)
-def outputs_are_linear(rng):
-    yield from activations(rng, "outputs")
-
+same(network, 3, activated, 1e-4, name="features_are_logistic")(activations, "features")
+same(network, 3, activated, 1e-4, name="outputs_are_linear")(activations, "outputs")
 
 by_hand = exercise.task("11.2", "The gradient by hand", refused=BACKPROPAGATION)
 
@@ -164,20 +157,9 @@ def descents(rng, epochs, momentum):
         yield "train", [epochs, rate, momentum], *drawn(rng, *sizes)
 
 
-@same(loop, 4, trained, 1e-3)
-def one_epoch(rng):
-    yield from descents(rng, 1, 0.0)
-
-
-@same(loop, 5, trained, 1e-3)
-def many_epochs(rng):
-    yield from descents(rng, 25, 0.0)
-
-
-@same(loop, 4, trained, 1e-3)
-def momentum(rng):
-    yield from descents(rng, 25, 0.8)
-
+same(loop, 4, trained, 1e-3, name="one_epoch")(descents, 1, 0.0)
+same(loop, 5, trained, 1e-3, name="many_epochs")(descents, 25, 0.0)
+same(loop, 4, trained, 1e-3, name="momentum")(descents, 25, 0.8)
 
 corners = exercise.task("11.5", "Exclusive or", seconds=60, needs=("11.1", "11.4"))
 GRADIENTS = 30

@@ -134,9 +134,7 @@ def motors(rng, scale, *steps):
             yield np.float32(low), np.float32(high), chosen, rewards.round(2)
 
 
-@same(episodes, 3, moved, SINGLE, parts=("return",))
-def adds_up_the_rewards(rng):
-    yield from motors(rng, 0, 1, 3, 20)
+same(episodes, 3, moved, SINGLE, parts=("return",), name="adds_up_the_rewards")(motors, 0, 1, 3, 20)
 
 
 @same(episodes, 2, moved, SINGLE, parts=("what the environment got", "actions"))
@@ -205,20 +203,13 @@ def choices(rng, sizes, scale=1.0):
         yield "cross_entropy", scores, rng.integers(0, actions, steps)
 
 
-@same(surprise, 6, measured, SINGLE, parts=("loss",))
-def loss_of_a_batch(rng):
-    yield from choices(rng, ((1, 2), (3, 2), (4, 4), (40, 2), (25, 6)))
-
-
-@same(surprise, 5, measured, SINGLE, parts=("the gradients",))
-def gradients_flow(rng):
-    yield from choices(rng, ((3, 2), (40, 2), (25, 6)))
-
-
-@same(surprise, 3, measured, SINGLE)
-def large_scores(rng):
-    yield from choices(rng, ((2, 3), (30, 3), (12, 4)), 600)
-
+same(surprise, 6, measured, SINGLE, parts=("loss",), name="loss_of_a_batch")(
+    choices, ((1, 2), (3, 2), (4, 4), (40, 2), (25, 6))
+)
+same(surprise, 5, measured, SINGLE, parts=("the gradients",), name="gradients_flow")(
+    choices, ((3, 2), (40, 2), (25, 6))
+)
+same(surprise, 3, measured, SINGLE, name="large_scores")(choices, ((2, 3), (30, 3), (12, 4)), 600)
 
 learning = exercise.task("12.6", "Learning from the elite")
 
@@ -288,10 +279,9 @@ def loss_of_continuous_actions(rng):
     yield from motions(rng, ((3, 2), (3, 3)), 300)  # the density is 0 there, to the last place
 
 
-@same(continuous, 3, measured, SINGLE, parts=("the gradients",))
-def gradients_of_both(rng):
-    yield from motions(rng, ((2, 2), (30, 1), (20, 4)))
-
+same(continuous, 3, measured, SINGLE, parts=("the gradients",), name="gradients_of_both")(
+    motions, ((2, 2), (30, 1), (20, 4))
+)
 
 training = exercise.task(
     "12.8", "Training", seconds=90, needs=tuple(f"12.{n}" for n in range(1, 8)), refused=TRAINING

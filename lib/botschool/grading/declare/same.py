@@ -34,7 +34,7 @@ from botschool.grading.declare.exercise import Task
 from botschool.grading.declare.values import argument
 from botschool.sandbox.protocol import pack
 
-Inputs = Callable[[np.random.Generator], Iterable[Any]]
+Inputs = Callable[..., Iterable[Any]]
 KEEPS = {
     "draw": "other inputs, drawn as under another secret",
     "again": "the same call later, in a new process",
@@ -93,13 +93,18 @@ def same(
     view: returns what is compared, of an answer and its arguments, where chance decides the rest.
     It runs in the grader's process, on our answer, too; it raises Wrong for a wrong form.
     off: names from KEEPS, and the reason why a right answer need not keep this.
-    name: the check's, where several have the same inputs; "" for that of the function.
+    name: the check's, where several share a function of inputs and may give it more arguments:
+    same(decay, 4, "descent", name="by_sign")(slopes, 2); "" for the name of the function.
     """
 
-    def keep(inputs: Inputs) -> Inputs:
+    def keep(inputs: Inputs, *given: Any, **named: Any) -> Inputs:
         if wrong := set(off or ()) - set(KEEPS):
             raise ValueError(f"{inputs.__name__}: off names {wrong}; there are {list(KEEPS)}")
-        check = Same(task, what, inputs, tolerance, parts, view, off or {})
+
+        def draw(rng: np.random.Generator) -> Iterable[Any]:
+            return inputs(rng, *given, **named)
+
+        check = Same(task, what, draw, tolerance, parts, view, off or {})
         check.__name__ = name or inputs.__name__
         task.check(points)(check)
         return inputs
