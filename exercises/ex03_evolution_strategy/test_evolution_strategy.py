@@ -14,12 +14,11 @@ unseen episodes a controller. Margins are those of 20 seeds, each with gains of 
   chosen with 5 and the best 20 again with 20 episodes, -990 to -750.
 """
 
-from functools import partial
 from itertools import pairwise
 
 import numpy as np
 
-from botschool.grading import Exercise, Student, expect, expect_array, expect_fields, same, seed_of
+from botschool.grading import Exercise, Student, expect, expect_array, same, seed_of
 from botschool.grading.declare.rows import in_common, noise_of, same_rows
 from botschool.grading.run.rewiring import Disguised
 

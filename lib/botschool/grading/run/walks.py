@@ -11,6 +11,7 @@ from unittest.mock import patch
 
 import numpy as np
 
+from botschool.grading.declare.checks import expect
 from botschool.grading.run.pulse import alive, beat
 from botschool.grading.run.replaced import replaced
 
@@ -18,6 +19,8 @@ MOST_WALKS, MOST_PLACES, MOST_NETWORKS = 50, 3000, 20
 """What is kept: of walks, of the last places of each, and of the first weights of networks."""
 LEAP = 5
 """How many times as long as all steps before it a step is that begins a new walk."""
+GRADIENTS = 30
+"""That a training computes at least; exercise 11's solution computes 300 before its first look."""
 COME, NEAR = 0.15, 1e-4
 """Shares of the size of a walk's end: how far it comes at least; what counts as no distance."""
 
@@ -147,6 +150,16 @@ def watching(module: Any, functions: tuple[str, ...], stuck: int) -> Iterator[Wa
         for name in filter(partial(hasattr, module), functions):
             stack.enter_context(replaced(module, name, partial(partial, walks.by_hand)))
         yield walks
+
+
+def expect_walked(said: str, gradients: int, led: bool) -> None:
+    """Raise Wrong unless small steps, at gradients, have led far from a start to an answer."""
+    expect(
+        gradients >= GRADIENTS,
+        f"{said} computed {gradients} gradients, by torch or by your functions of 11.2 and 11.3, "
+        f"but a training needs at least {GRADIENTS}.",
+    )
+    expect(led, f"{said}: no steps along gradients led from a random start to these weights.")
 
 
 def watched(module, name, arguments, stuck):
