@@ -161,21 +161,3 @@ def test_files_that_a_single_module_uses_are_compared(way, tmp_path, monkeypatch
     finally:
         sys.modules.pop("single_env", None)
         files._digest.cache_clear()
-
-
-def test_a_worker_with_another_data_file_takes_no_part(tmp_path):
-    for name, gain in (("mine", 1.0), ("theirs", 5.0)):
-        folder = tmp_path / name
-        folder.mkdir()
-        read = 'REWARD = float((Path(__file__).parent / "gain.txt").read_text())'
-        text = "from pathlib import Path\n" + LATE.replace("from late_parts import REWARD", read)
-        (folder / "late_env.py").write_text(text)
-        (folder / "gain.txt").write_text(str(gain))
-    ini = write_experiment(tmp_path, "late_env:Late-v0", "OpenAI-ES", samplesize=4)
-    with Cluster(tmp_path / "cluster") as cluster:
-        registered(cluster.start_worker(PYTHONPATH=str(tmp_path / "theirs")))
-        arguments = ("-o", tmp_path / "no", "--cluster", cluster.address)
-        env = environment_of_command(DASK_BOTSCHOOL__SHORTEST="0")
-        code, _, errors = call("es", "-f", ini, *arguments, env=env, cwd=tmp_path / "mine")
-    *_, sentence = errors.splitlines(keepends=True)
-    one_sentence(code, sentence, ["gain.txt differs", "install the same files"])

@@ -24,7 +24,7 @@ from clusters import (
     slowed,
     until,
 )
-from running import call, experiment, finish, one_sentence, same, start
+from running import experiment, finish, one_sentence, same, start
 
 pytest.importorskip("distributed")
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")
@@ -133,22 +133,6 @@ def test_the_probe_of_a_worker_has_an_environment_of_its_own(monkeypatch, tmp_pa
 
 
 long = pytest.mark.long  # what is short is in test_cluster.py and test_cluster_files.py
-
-
-@long
-def test_a_worker_is_killed_and_another_one_comes(tmp_path):
-    generations, changes = EXPERIMENTS["acrobot"]
-    ini, generations = shortened("acrobot", tmp_path, **changes), generations // 3
-    arguments = ("-s", 5, "--generations", generations)
-    assert call("es", "-f", ini, *arguments, "-o", tmp_path / "w1")[0] == 0
-    with Cluster(tmp_path / "cluster") as cluster:
-        victim, _ = cluster.start_workers(2)
-        evolving = Evolving(ini, tmp_path / "killed", cluster.address, generations)
-        assert evolving.reach(3)
-        victim.kill()
-        cluster.start_worker()
-        evolving.done()
-    assert same(tmp_path / "w1", tmp_path / "killed")
 
 
 # each experiment, on each kind of cluster
@@ -361,16 +345,6 @@ def test_a_worker_with_another_version_takes_no_part(evolving_on, tmp_path):
         code, out, errors = evolving.finish()
         assert code == 0, errors
         assert "is left out: it has botschool 0.0.1" in out
-
-
-@long
-def test_only_workers_with_another_version(undisturbed, tmp_path):
-    ini, generations, _ = undisturbed("acrobot")
-    with Cluster(tmp_path / "cluster") as cluster:
-        of_another_version(cluster, tmp_path / "other")
-        evolving = Evolving(ini, tmp_path / "run", cluster.address, generations)
-        code, _, errors = evolving.finish()
-        one_sentence(code, errors, ["0.0.1"])
 
 
 CUT = 60
