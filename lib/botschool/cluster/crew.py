@@ -208,13 +208,16 @@ class Crew:
             worker.left_out = self._differs(await submit(worker.address, remote.hello, self._asked))
             worker.ready = not worker.left_out
             await asyncio.gather(*(self._lane(worker) for _ in range(DEPTH)))
-        except Lost:  # if it is still there, it is greeted again
-            self._workers.pop(worker.address, None)
+        except Lost:
+            pass
         except Exception as error:
             worker.left_out = f"it says: {said(error)}."
-        worker.ready = False
-        if worker.left_out:
-            self._news.append(f"Worker {worker.address} is left out: {worker.left_out}")
+        finally:
+            worker.ready = False
+            if worker.left_out:
+                self._news.append(f"Worker {worker.address} is left out: {worker.left_out}")
+            else:  # if it is still there, it is greeted again
+                self._workers.pop(worker.address, None)
 
     def _differs(self, answer: Any) -> str:
         """Return why a worker cannot take part; "" if it can."""
