@@ -148,8 +148,8 @@ class Cluster:
             *("--scheduler-file", self.file),
         )
         self.scheduler.says("Scheduler at:")
-        until(self.file.exists, "no scheduler file", self.scheduler)
-        self.address = json.loads(self.file.read_text())["address"]
+        written = lambda: self.file.exists() and self.file.read_text()  # noqa: E731
+        self.address = json.loads(until(written, "no scheduler file", self.scheduler))["address"]
         return self.scheduler
 
     def start_worker(
