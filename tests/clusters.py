@@ -148,8 +148,12 @@ class Cluster:
             *("--scheduler-file", self.file),
         )
         self.scheduler.says("Scheduler at:")
-        written = lambda: self.file.exists() and self.file.read_text()  # noqa: E731
-        self.address = json.loads(until(written, "no scheduler file", self.scheduler))["address"]
+        text = until(
+            lambda: self.file.exists() and self.file.read_text(),
+            "no scheduler file",
+            self.scheduler,
+        )
+        self.address = json.loads(text)["address"]
         return self.scheduler
 
     def start_worker(
