@@ -3,9 +3,6 @@
 `duels:Duel`, with an option fault=... for faults that show while it is played.
 """
 
-import os
-from pathlib import Path
-
 import numpy as np
 from gymnasium import spaces
 from pettingzoo import AECEnv, ParallelEnv
@@ -14,9 +11,7 @@ from botschool import config, problems
 from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.run import evolve
 from botschool.policies.policy import Policy
-
-DIE_ONCE = "TINY_DIE_ONCE"
-"""Environment variable with the path of a file; the process that removes it dies at once."""
+from tiny_envs import die_once
 
 
 class Duel(ParallelEnv):
@@ -59,7 +54,7 @@ class Duel(ParallelEnv):
         return seen if self.fault == "old" else (seen, {agent: {} for agent in self.names})
 
     def step(self, actions):
-        self._die_once()
+        die_once()
         assert set(actions) == set(self.agents), actions
         assert all(self.action_space(agent).contains(act) for agent, act in actions.items())
         self.t += 1
@@ -92,14 +87,6 @@ class Duel(ParallelEnv):
         cat = np.array([self.cat, self.mouse, apart], dtype=np.float32)
         mouse = {"cat": np.array([-apart], dtype=np.float32), "side": int(self.mouse > 0)}
         return {"cat": cat, "mouse": mouse}
-
-    def _die_once(self):
-        if DIE_ONCE in os.environ:
-            try:
-                Path(os.environ[DIE_ONCE]).unlink()
-            except FileNotFoundError:
-                return
-            os._exit(3)
 
 
 class Blind(Duel):

@@ -17,6 +17,16 @@ DIE_ONCE = "TINY_DIE_ONCE"
 """Environment variable with the path of a file; the process that removes it dies at once."""
 
 
+def die_once():
+    """End this process if it is the one that removes the file that DIE_ONCE names."""
+    if DIE_ONCE in os.environ:
+        try:
+            Path(os.environ[DIE_ONCE]).unlink()
+        except FileNotFoundError:
+            return
+        os._exit(3)
+
+
 class Tiny(gymnasium.Env):
     """A point on a line is pushed towards 0: reward 1 - |x| a step, lost past |x| = 1."""
 
@@ -51,7 +61,7 @@ class Tiny(gymnasium.Env):
     def step(self, action):
         if self.fault == "discrete":
             action = [0.4 * action]
-        self._die_once()
+        die_once()
         self.speed += 0.3 * float(action[0]) + 0.02 * self.np_random.normal()
         self.x += 0.3 * self.speed
         reward = 1 - abs(self.x)
@@ -82,14 +92,6 @@ class Tiny(gymnasium.Env):
         if self.fault == "dies":
             os._exit(3)
         return faults.get(self.fault, result)
-
-    def _die_once(self):
-        if DIE_ONCE in os.environ:
-            try:
-                Path(os.environ[DIE_ONCE]).unlink()
-            except FileNotFoundError:
-                return
-            os._exit(3)
 
 
 FAULTS = [

@@ -2,8 +2,6 @@
 
 import json
 import math
-import subprocess
-import sys
 from dataclasses import asdict
 from pathlib import Path
 
@@ -458,19 +456,6 @@ def test_every_default_satisfies_its_own_limits():
     for algo in config.ALGORITHMS:
         parts = {"exp": {"environment": "X", "algo": algo}, "policy": {}, "algo": {}}
         assert from_dict(to_dict(from_dict(parts))) == from_dict(parts)
-
-
-def test_importing_is_light():
-    heavy = {"torch", "pybullet", "matplotlib", "rich"}
-    code = f"import sys, botschool.config; print({heavy} & set(sys.modules))"
-    path = str(Path(config.__file__).parents[1])
-    done = subprocess.run(
-        [sys.executable, "-c", f"import sys; sys.path.insert(0, {path!r}); {code}"],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    assert done.stdout.strip() == "set()"
 
 
 KEYS = [name for _, name, _, _ in describe()] + ["mutation", "NHIDDENS", "nhidens", "", "x y"]
