@@ -134,6 +134,7 @@ CASES = {
     "upside down": (lambda r: (1 / (w := line(r)), w), "upside down"),
     "1 minus": (lambda r: (1 - (w := line(r)), w), "1 minus"),
     "rounded": (lambda r: (np.trunc(w := 9 * line(r) + [20, 0, 0, 0, 0, 0]), w), "cut off"),
+    "rounded to two places": (lambda r: (np.round(w := line(r), 2), w), "to 2 places"),
     "added up": (lambda r: (np.cumsum(w := line(r)), w), "those before it"),
     "in proportion": (lambda r: (0.37 * (w := line(r)), w), "0.37 times"),
     "a constant": (lambda r: ((w := line(r)) - 0.7, w), "- 0.7"),

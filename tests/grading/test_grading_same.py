@@ -221,6 +221,14 @@ WRONG = {
     "arrays only": ONCE.format("samples = samples.reshape(-1, len(centre))"),
     "changes the centre": ONCE.format("centre += 1 if len(centre) else 0; centre -= 1"),
     "wrong after three calls": ONCE.format("_calls.append(1); factor += len(_calls) > 3"),
+    "one array for all answers": """
+_ours, _made = mixed, {}
+
+def mixed(centre, samples, factor, many):
+    answer = _ours(centre, samples, factor, many)
+    _made.setdefault(answer.shape, answer)[...] = answer
+    return _made[answer.shape]
+""",
     "wrong in a second process": ONCE.format("""import os
     if not _calls and os.path.exists("mark"):
         factor += 1

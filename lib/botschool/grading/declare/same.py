@@ -38,6 +38,7 @@ Inputs = Callable[..., Iterable[Any]]
 KEEPS = {
     "draw": "other inputs, drawn as under another secret",
     "again": "the same call later, in a new process",
+    "kept": "an answer, looked at after another call",
     "changes": "one argument changed at a time",
     "square": "arrays cut to a square",
     "one": "arrays cut to size one",
@@ -156,6 +157,28 @@ class Same:
             student.stop()
         for kept, arguments in self.more():
             self._compare(student, arguments, earlier, kept)
+        self._keep_an_answer(student)
+
+    def _keep_an_answer(self, student: Any) -> None:
+        """Raise Wrong if another call changes an answer; the first check of a function tries it."""
+        checks = [each for _, _, each in self.task.checks if isinstance(each, Same)]
+        arguments, others = self._pairs()[0]
+        first = next(each for each in checks if each.what == self.what) is self
+        if callable(self.what) or not first or "kept" in self.off:
+            return
+        ours = self.task.exercise.ours.answer(self.what, arguments)
+        if ours.seconds > QUICK or not isinstance(ours.value, (np.ndarray, list, dict)):
+            return
+        said = f"{self.what}({', '.join(map(argument, arguments))}), looked at after another call,"
+        try:
+            with student.within(PATIENCE, _before_another):
+                both = self.what, [*arguments], [*others]
+                answer = student.run(_before_another, *both, said=said)
+            wanted = self.seen("", ours.value, arguments)
+            alike(said, self.seen(said, answer, arguments), wanted, self.tolerance, self.parts)
+        except Wrong as error:
+            error.args = (f"{error} {KEPT}",)
+            raise
 
     def _compare(self, student: Any, arguments: tuple, earlier: list[Any], kept: str = "") -> None:
         ours = self.task.exercise.ours.answer(self.what, arguments)
@@ -240,11 +263,19 @@ class Same:
                     yield name, each
 
 
+def _before_another(module, name, arguments, others):
+    """Return an answer as it is after another call; runs in the child."""
+    answer = getattr(module, name)(*arguments)
+    getattr(module, name)(*others)
+    return answer
+
+
 def alike(said: str, got: Any, wanted: Any, tolerance: float, parts: tuple[str, ...] = ()) -> None:
     """Raise Wrong at the first part of an answer that differs from ours."""
     if isinstance(wanted, dict):
         keys = parts or tuple(wanted)
-        for key, value in zip(keys, expect_fields(said, got, *keys), strict=True):
+        for key in keys:  # a view may show fewer parts of a wrong answer
+            value = expect_fields(said, got, key)[0]
             alike(f"{said}: {key}", value, wanted[key], tolerance)
     elif isinstance(wanted, (list, tuple)) and not _numbers(wanted):
         names = parts or tuple(f"[{i}]" for i in range(len(wanted)))
@@ -253,6 +284,7 @@ def alike(said: str, got: Any, wanted: Any, tolerance: float, parts: tuple[str, 
         for name, one, other in zip(names, got, wanted, strict=True):
             alike(f"{said}: {name}", one, other, tolerance)
     elif wanted is None or isinstance(wanted, (str, bool, np.bool_)):
+        got, wanted = (bool(e) if isinstance(e, np.bool_) else e for e in (got, wanted))
         right = isinstance(got, (str, bool, np.bool_, type(None))) and got == wanted
         expect(right, f"{said} is {show(got)}, but {show(wanted)} was expected.")
     else:
@@ -310,24 +342,39 @@ def _changed(value: Any, other: Any) -> Iterator[Any]:
 
 
 def _cut(arguments: tuple) -> Iterator[tuple[str, tuple]]:
-    """Yield arguments whose arrays are cut to a square, then to size one, if one is a table."""
-    table = next((e for e in arguments if isinstance(e, np.ndarray) and e.ndim > 1), None)
-    if table is None or 0 in table.shape:
+    """Yield arguments whose arrays are cut to a square, then to size one, if one is a table.
+
+    The tables in a dict, as a network's, are cut together with a vector that goes with them.
+    """
+    given = [each for each in arguments if isinstance(each, np.ndarray)]
+    tables = [array for array in given if array.ndim > 1][:1]
+    if given and not tables:
+        dicts = [each.values() for each in arguments if isinstance(each, dict)]
+        tables = [e for parts in dicts for e in parts if isinstance(e, np.ndarray) and e.ndim > 1]
+    sizes = {n for table in tables for n in table.shape}
+    if not sizes or 0 in sizes:
         return
-    for name, size in (("square", min(table.shape)), ("one", 1)):
+    for name, size in (("square", min(sizes)), ("one", 1)):
 
         def cut(array: np.ndarray, size: int = size) -> np.ndarray:
-            return array[tuple(slice(size if n in table.shape else n) for n in array.shape)]
+            return array[tuple(slice(size if n in sizes else n) for n in array.shape)]
 
-        yield name, _mapped(arguments, cut)
+        yield name, _mapped(arguments, cut, inside=True)
 
 
 def _in_single(array: np.ndarray) -> np.ndarray:
     return array.astype(np.float32) if array.dtype == np.float64 else array
 
 
-def _mapped(arguments: tuple, change: Callable[[np.ndarray], Any]) -> tuple:
-    return tuple(change(each) if isinstance(each, np.ndarray) else each for each in arguments)
+def _mapped(arguments: tuple, change: Callable[[np.ndarray], Any], inside: bool = False) -> tuple:
+    """Return arguments with their arrays changed; inside: those in dicts of arrays, too."""
+
+    def one(value: Any) -> Any:
+        if inside and isinstance(value, dict):
+            return {key: one(part) for key, part in value.items()}
+        return change(value) if isinstance(value, np.ndarray) else value
+
+    return tuple(one(each) for each in arguments)
 
 
 @functools.cache

@@ -11,9 +11,10 @@ from botschool.grading.declare.checks import cuts_fractions
 
 MAX_LEAVES = 20_000
 """Largest number of arrays, numbers and texts to compare in an answer."""
-TIE, TINY = 1e-6, 1e-9
-"""Relative differences: TIE covers rounding in single precision, TINY in double precision."""
-SHARE = 1e-3
+TIE, TINY, SINGLE = 1e-6, 1e-9, 1e-5
+"""Relative differences: TIE covers rounding in single precision, TINY in double precision, SINGLE
+what `expect_close` allows in single precision."""
+SHARE = 1e-2
 """Equal answers differ by less than this share of their difference from ours."""
 
 
@@ -36,12 +37,25 @@ def equal(answers: list[Any]) -> bool:
 def fits(got: Any, made: Any, ours: Any) -> bool:
     """Return whether `made` equals `got` to rounding, unless both are nearly `ours`.
 
-    An array that cannot hold the fractions of ours equals only another one that cannot.
+    An array that cannot hold the fractions of ours equals only another one that cannot. In single
+    precision, differences of large numbers have larger rounding errors.
     """
     if cuts_fractions(got, ours) != cuts_fractions(made, ours):
         return False
     error, effect = distance(got, made), distance(got, ours)
-    return error <= TIE and (effect <= TIE or error <= SHARE * effect)
+    tie = SINGLE if _in_single(got) else TIE
+    return error <= tie and (effect <= tie or error <= SHARE * effect)
+
+
+def _in_single(answer: Any) -> bool:
+    """Return whether all numbers of an answer fit into single precision, and some have fractions.
+
+    A correct answer in it may be this far from ours.
+    """
+    leaves = [leaf for _, leaf in _leaves(answer) or [] if isinstance(leaf, np.ndarray)]
+    with np.errstate(over="ignore", invalid="ignore"):
+        single = all((leaf.astype(np.float32) == leaf).all() for leaf in leaves)
+        return single and any((leaf % 1).any() for leaf in leaves)
 
 
 def weight(got: Any, made: Any, ours: Any) -> float:

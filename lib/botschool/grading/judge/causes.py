@@ -32,6 +32,8 @@ SECONDS = 3.0
 """Processor seconds to find a cause."""
 SLOW = 0.2
 """Processor seconds of our answer to a call that is not repeated."""
+MOST_WORDS = 80
+"""Words of a message; of a longer one, the small call is not shown."""
 _DIGITS = re.compile(r"[-+]?\d[\d.e+-]*")
 
 
@@ -65,6 +67,8 @@ class Explanation:
                 shown = shown if self.quiet else self._shown(first, again)
             except (BotschoolError, Wrong, OSError):  # no time is left, or a fault of the machine
                 pass
+        if len(f"{cause} {shown}".split()) > MOST_WORDS:
+            shown = first.text
         return cause if cause and self.quiet else "\n".join(filter(None, [cause, shown]))
 
     def _calls(self, again: Student) -> list[Call]:
@@ -99,14 +103,18 @@ class Explanation:
     def _diagnosed(self, calls: list[Call]) -> str:
         """Return a sentence that two wrong answers suggest, or ""."""
         told: list[str] = []
+        names: list[str] = []
         different = {call.request: call for call in calls}.values()
         for call in sorted(different, key=lambda call: len(call.request)):
             wrong = call.numbers()
             if wrong is not None and call.wrong:
-                got, wanted, given = wrong
+                got, wanted, given, name = wrong
                 told.append(diagnose(got, wanted, tuple(given), call.got))
+                names.append(name)
         alike = {_DIGITS.sub("", each) for each in told}
-        return told[0] if len(told) > 1 and len(alike) == 1 else ""
+        if len(told) < 2 or len(alike) > 1 or not told[0]:
+            return ""
+        return f"{names[0]}: {told[0]}" if names[0] and len({*names}) == 1 else told[0]
 
     def _not_steady(self, again: Student) -> str:
         """Return a sentence if two equal calls have different answers."""

@@ -15,8 +15,10 @@ CONDITION = "One of several conditions is left out: "
 """Words of a slip that leaves out what a condition asks for: where one asks for it, it is false."""
 LIKE = 0.8
 """Likeness, from 0 to 1, of functions that count as written in the same way."""
-ONLY_IF_ALIKE = re.compile("pass of a loop|Two steps are done")
+ONLY_IF_ALIKE = re.compile("each pass|pass of a loop|Two steps are done")
 """Words of slips that only those recognise whose function is written in the same way."""
+ARGUMENTS = re.compile(r"wo arguments of `(?:\w+\.)*(\w+)` are exchanged")
+"""Words of a slip in a call: where nobody calls this, it is false."""
 LEFT_OUT = re.compile(r"A step is left out: `([^`]*\W[^`]*)`")
 """Words of a slip that leaves out an assignment to a part: where there is one, it is false."""
 
@@ -29,6 +31,8 @@ def may_be_true(slip: Variation, text: str) -> bool:
     if (step := LEFT_OUT.search(slip.what)) and assigns(text, step[1]):
         return False
     if slip.comparison and not _may_compare(text, slip):
+        return False
+    if (call := ARGUMENTS.search(slip.what)) and not slip.own and call[1] not in text:
         return False
     only_if_alike = slip.vague or ONLY_IF_ALIKE.search(slip.what)
     if only_if_alike and not written_alike(text, slip.text, slip.function):

@@ -133,7 +133,10 @@ class Expressions:
         whole = in_(self.quoted(part))
         if isinstance(part.op, (ast.Sub, ast.Div)):
             what = "A difference" if isinstance(part.op, ast.Sub) else "A fraction"
-            yield f"{what} is the wrong way round.", ast.BinOp(part.right, part.op, part.left)
+            said = f"{what} is the wrong way round."
+            if isinstance(part.op, ast.Sub) and isinstance(part.left, ast.UnaryOp):  # of -a - b
+                said = "The sign is reversed."
+            yield said, ast.BinOp(part.right, part.op, part.left)
         if isinstance(part.op, ast.MatMult):
             yield "The two sides of `@` are exchanged.", ast.BinOp(part.right, part.op, part.left)
         if right and not isinstance(part.op, ast.MatMult):

@@ -25,7 +25,7 @@ from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import Task
 from botschool.grading.declare.mistakes import Case, Known
-from botschool.grading.judge.alike import TIE, counts, distance, equal, fits, weight
+from botschool.grading.judge.alike import SINGLE, TIE, counts, distance, equal, fits, weight
 from botschool.grading.judge.evidence import may_be_true
 from botschool.grading.judge.looking import TookTooLong, processor_time_limit
 from botschool.grading.judge.sentences import Variation
@@ -100,13 +100,33 @@ class Call:
             return float(self.wrong)
         return weight(self.got, made, self.ours)
 
-    def numbers(self) -> tuple[np.ndarray, np.ndarray, list[Any]] | None:
-        """Return the submission's answer, ours and the arguments, if both are numbers or arrays."""
-        given, pair = unpack(self.request), (self.got, self.ours)
-        fits = all(isinstance(each, (int, float, np.ndarray)) for each in pair)
-        if not fits or "driver" in given:
+    def numbers(self) -> tuple[np.ndarray, np.ndarray, list[Any], str] | None:
+        """Return the submission's answer, ours, the arguments, and the name of a part or "".
+
+        Of two dicts it is the first part that differs. None if these are no numbers or arrays.
+        """
+        given, pair, name = unpack(self.request), (self.got, self.ours), ""
+        if "driver" in given:
             return None
-        return np.asarray(pair[0]), np.asarray(pair[1]), [*given["arguments"]]
+        if self.equal is None and isinstance(self.ours, dict) and isinstance(self.got, dict):
+            both = ((key, (self.got.get(key), value)) for key, value in self.ours.items())
+            apart = ((key, two) for key, two in both if distance(*two) > TIE)
+            name, pair = next(apart, ("", pair))
+        if not all(isinstance(each, (int, float, np.ndarray, list)) for each in pair):
+            return None
+        got, wanted = (_as_array(each) for each in pair)
+        if got is None or wanted is None:
+            return None
+        return got, wanted, [*given["arguments"]], name
+
+
+def _as_array(value: Any) -> np.ndarray | None:
+    """Return a number, a list of numbers or an array as an array, or None."""
+    try:
+        array = np.asarray(value)
+    except ValueError:  # of lists of different lengths
+        return None
+    return array if array.dtype.kind in "biuf" else None
 
 
 def named(ours: Student, calls: list[Call], task: Task, known: Known, text: str) -> str:
@@ -123,7 +143,7 @@ def named(ours: Student, calls: list[Call], task: Task, known: Known, text: str)
             return line_about(what)
     slips = _slips(ours, task, known, calls)
     if slip := _clearest(each for each in slips if may_be_true(each, text)):
-        return f"{VARIED} {slip.what}"
+        return f"{VARIED} {_placed(slip, text)}"
     others = (
         what for what, wrong in made if (what, wrong) not in quick and _explains(ours, wrong, calls)
     )
@@ -133,6 +153,14 @@ def named(ours: Student, calls: list[Call], task: Task, known: Known, text: str)
 def line_about(what: str) -> str:
     """Return the line about a known mistake; what: its sentence, "Takes the sum for the mean."."""
     return f"{TOLD} {_lower(what)}"
+
+
+def _placed(slip: Variation, text: str) -> str:
+    """Return the sentence of a slip, without a variable as its place that a text does not have."""
+    placed = re.fullmatch(r"In `(\w+)`: (.*(?:wrong way round|sign is reversed).*)", slip.what)
+    if placed is None or re.search(rf"\b{placed[1]}\b", text):
+        return slip.what
+    return placed[2][0].upper() + placed[2][1:]
 
 
 def _lower(sentence: str) -> str:
@@ -205,6 +233,7 @@ def _telling(calls: list[Call]) -> Call:
         (call for call in calls if not call.loose),
         key=lambda c: (
             not c.wrong,
+            c.equal is None and distance(c.got, c.ours) <= SINGLE,  # perhaps by rounding
             _raised(c.got),
             c.seconds > CASE_SECONDS / 2,
             len(c.request),

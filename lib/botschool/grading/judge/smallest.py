@@ -94,6 +94,8 @@ def difference(said: str, got: Any, right: Any) -> str:
         for place, (mine, wanted) in enumerate(zip(got, right, strict=True)):
             if distance(mine, wanted) > APART:
                 return difference(f"{said}[{place}]", mine, wanted)
+    if _of_parts(right) and isinstance(got, list) and len(got) != len(right):
+        return f"{said} has {len(got)} parts, but {len(right)} were expected."
     if not _of_parts(right) and got is not None and right is not None:
         try:
             expect_close(said, got, right, APART)

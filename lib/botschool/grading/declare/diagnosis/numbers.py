@@ -160,6 +160,15 @@ def rounded(c: Comparison) -> str | None:
 
 
 @detector
+def rounded_to_places(c: Comparison) -> str | None:
+    for places in (1, 2, 3):
+        nearly = np.round(c.wanted, places)
+        if c.same(nearly) and not alike(nearly, np.round(c.wanted, places - 1)):
+            return f"It is rounded to {places} places, but the number itself is asked for."
+    return None
+
+
+@detector
 def added_up(c: Comparison) -> str | None:
     if not c.in_rows:
         return None
