@@ -93,8 +93,13 @@ def ended(module, steps, maxsteps, seed):
     return module.random_episode(name, seed, 1000)
 
 
-@same(episode, 3, ended, view=ends)
+def ends_and_shape(answer, *_):
+    return ends(answer) | {"the shape of observations": list(np.shape(answer["observations"]))}
+
+
+@same(episode, 3, ended, view=ends_and_shape)
 def ends_twice(rng):
+    """What is observed is a single number."""
     for steps in (7, 9, 3):
         yield steps, steps, seed_of(rng)
 
@@ -123,6 +128,7 @@ def states(rng, many, size=1.2):
 def knows_when_gymnasium_terminates(rng):
     yield from states(rng, 24)
     yield from states(rng, 8, 2.5)
+    yield from (np.array([0.1, 0, side * 0.222, 0]) for side in (-1, 1))  # 12.7 degrees
 
 
 @same(cartpole, 3, "fallen", view=truth)

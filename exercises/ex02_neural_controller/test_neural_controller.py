@@ -81,6 +81,7 @@ def in_common(answer, layers, seed):
     return {
         "the number of weights that equal others": one.size - np.unique(one).size,
         "whether the same seed gives the same again": np.array_equal(one, again),
+        "whether it gives what was changed in the meantime": np.allclose(one + 1, again),
         "whether seed 0 gives the same again": np.array_equal(zero, zero_again),
         "the number of weights that the next seed has, too": np.intersect1d(one, other).size,
     }
