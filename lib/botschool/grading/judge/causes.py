@@ -34,6 +34,8 @@ SLOW = 0.2
 """Processor seconds of our answer to a call that is not repeated."""
 MOST_WORDS = 80
 """Words of a message; of a longer one, the small call is not shown."""
+MOSTLY = 0.8
+"""Share of the wrong answers that suggest the same cause."""
 _DIGITS = re.compile(r"[-+]?\d[\d.e+-]*")
 
 
@@ -101,20 +103,26 @@ class Explanation:
         return "" if self.quiet else self._diagnosed(calls) or self._not_steady(again)
 
     def _diagnosed(self, calls: list[Call]) -> str:
-        """Return a sentence that two wrong answers suggest, or ""."""
-        told: list[str] = []
-        names: list[str] = []
+        """Return a sentence that nearly all wrong answers suggest, two at least, or "".
+
+        A few inputs, as an angle of 0, may suggest another one, but all must suggest something.
+        """
+        told: list[tuple[str, str]] = []
         different = {call.request: call for call in calls}.values()
         for call in sorted(different, key=lambda call: len(call.request)):
             wrong = call.numbers()
             if wrong is not None and call.wrong:
                 got, wanted, given, name = wrong
-                told.append(diagnose(got, wanted, tuple(given), call.got))
-                names.append(name)
-        alike = {_DIGITS.sub("", each) for each in told}
-        if len(told) < 2 or len(alike) > 1 or not told[0]:
+                told.append((diagnose(got, wanted, tuple(given), call.got), name))
+        alike = [_DIGITS.sub("", said) for said, _ in told]
+        often = max(alike, key=alike.count, default="")
+        many = alike.count(often)
+        if not all(alike) or many < 2 or many < MOSTLY * len(alike):
             return ""
-        return f"{names[0]}: {told[0]}" if names[0] and len({*names}) == 1 else told[0]
+        chosen = [each for each, text in zip(told, alike, strict=True) if text == often]
+        names = {name for _, name in chosen}
+        said, name = chosen[0]
+        return f"{name}: {said}" if name and len(names) == 1 else said
 
     def _not_steady(self, again: Student) -> str:
         """Return a sentence if two equal calls have different answers."""
