@@ -105,7 +105,7 @@ class Explanation:
     def _diagnosed(self, calls: list[Call]) -> str:
         """Return a sentence that nearly all wrong answers suggest, two at least, or "".
 
-        A few inputs, as an angle of 0, may suggest another one, but all must suggest something.
+        A few inputs, as an angle of 0, may suggest another one, or none.
         """
         told: list[tuple[str, str]] = []
         different = {call.request: call for call in calls}.values()
@@ -115,9 +115,8 @@ class Explanation:
                 got, wanted, given, name = wrong
                 told.append((diagnose(got, wanted, tuple(given), call.got), name))
         alike = [_DIGITS.sub("", said) for said, _ in told]
-        often = max(alike, key=alike.count, default="")
-        many = alike.count(often)
-        if not all(alike) or many < 2 or many < MOSTLY * len(alike):
+        often = max(filter(None, alike), key=alike.count, default="")
+        if alike.count(often) < max(2, MOSTLY * len(alike)):
             return ""
         chosen = [each for each, text in zip(told, alike, strict=True) if text == often]
         names = {name for _, name in chosen}

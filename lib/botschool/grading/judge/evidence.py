@@ -42,7 +42,9 @@ def may_be_true(slip: Variation, text: str) -> bool:
 
 def _may_compare(text: str, slip: Variation) -> bool:
     """Return whether a function has a slip's wrong sign, either way round, or no comparison."""
-    signs = set(re.findall(r"[<>]=?|[!=]=", " ".join(_words(text, slip.function)).replace(" ", "")))
+    signs = set(
+        re.findall(r"[<>]=?|[!=]=", " ".join(words_of(text, slip.function)).replace(" ", ""))
+    )
     turned = slip.comparison.translate(str.maketrans("<>", "><"))
     return not signs or bool(signs & {slip.comparison, turned})
 
@@ -76,12 +78,12 @@ def holds(text: str, expression: str, names: set[str]) -> bool:
 
 def written_alike(text: str, other: str, function: str) -> bool:
     """Return whether two texts have a function of this name that is written in the same way."""
-    one, another = _words(text, function), _words(other, function)
+    one, another = words_of(text, function), words_of(other, function)
     matcher: SequenceMatcher[str] = SequenceMatcher(a=one, b=another, autojunk=False)
     return bool(one) and matcher.ratio() >= LIKE
 
 
-def _words(text: str, function: str) -> list[str]:
+def words_of(text: str, function: str) -> list[str]:
     """Return the words of a function's body and what stands between them; [] without it."""
     try:
         nodes = [each for each in ast.walk(ast.parse(text)) if isinstance(each, ast.FunctionDef)]

@@ -26,7 +26,7 @@ from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import Task
 from botschool.grading.declare.mistakes import Case, Known
 from botschool.grading.judge.alike import SINGLE, TIE, counts, distance, equal, fits, weight
-from botschool.grading.judge.evidence import may_be_true
+from botschool.grading.judge.evidence import may_be_true, words_of
 from botschool.grading.judge.looking import TookTooLong, processor_time_limit
 from botschool.grading.judge.sentences import Variation
 from botschool.grading.judge.variations import variations
@@ -158,7 +158,7 @@ def line_about(what: str) -> str:
 def _placed(slip: Variation, text: str) -> str:
     """Return the sentence of a slip, without a variable as its place that a text does not have."""
     placed = re.fullmatch(r"In `(\w+)`: (.*(?:wrong way round|sign is reversed).*)", slip.what)
-    if placed is None or re.search(rf"\b{placed[1]}\b", text):
+    if placed is None or placed[1] in (slip.function, *words_of(text, slip.function)):
         return slip.what
     return placed[2][0].upper() + placed[2][1:]
 
