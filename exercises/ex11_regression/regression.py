@@ -56,9 +56,9 @@ class Network(nn.Module):
 # %% [markdown]
 # ## Task 11.2. The gradient by hand
 #
-# Only NumPy and the formulas of `README.md`: torch is refused, and differences of the loss, (L(w +
-# h) - L(w)) / h, are not exact enough. X holds the inputs (n rows), T the targets (m columns). The
-# four gradients:
+# Only NumPy and the formulas of `README.md`: torch and complex numbers are refused, and differences
+# of the loss, (L(w + h) - L(w)) / h, are not exact enough. X holds the inputs (n rows), T the
+# targets (m columns). The four gradients:
 #
 # $$\frac{\partial L}{\partial W_2} = D_2^\top H \qquad
 # \frac{\partial L}{\partial b_2} = \textstyle\sum_{rows} D_2 \qquad

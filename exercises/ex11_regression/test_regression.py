@@ -100,13 +100,38 @@ def saturated(rng):
 same(by_hand, 3, "gradient_by_hand", parts=("loss",), name="loss_by_hand")(networks)
 
 
+def formulas_of(module, *arguments):
+    """gradient_by_hand(...)"""
+    import sys
+
+    kinds = set()
+
+    def look(frame, event, result):
+        if event == "return":
+            values = (*frame.f_locals.values(), result)
+            kinds.update(getattr(getattr(each, "dtype", each), "kind", "") for each in values)
+            kinds.update("c" for each in values if isinstance(each, complex))
+
+    sys.setprofile(look)
+    try:
+        found = module.gradient_by_hand(*arguments)
+    finally:
+        sys.setprofile(None)
+    return {"whether it computes with complex numbers": "c" in kinds, **found}
+
+
+@same(by_hand, 3, formulas_of, parts=("whether it computes with complex numbers", "w2", "b2"))
+def output_layer_by_formulas(rng):
+    yield from networks(rng)
+
+
 @same(by_hand, 6, "gradient_by_hand", parts=("w2", "b2"))
 def output_layer_by_hand(rng):
     yield from networks(rng)
     yield from saturated(rng)
 
 
-@same(by_hand, 9, "gradient_by_hand", parts=("w1", "b1", "w2", "b2"))
+@same(by_hand, 6, "gradient_by_hand", parts=("w1", "b1", "w2", "b2"))
 def hidden_layer_by_hand(rng):
     yield from networks(rng)
     for sizes in SIZES[1:3]:  # where quotients of differences of the loss lose their digits

@@ -222,7 +222,8 @@ def means_in_order(rng):
 @close(table, 4, "table_of", view=columns("deviation", "gain"))
 def deviations_and_gains(rng):
     for b, default, a in ((2, 3, 6), (2, 3, 6), (2, 3, 6), (3, 1, 0), (1, 4, 0)):
-        yield runs_of(rng, b=b, default=default, a=a), "default"
+        runs = runs_of(rng, b=b, default=default, a=a)
+        yield from ((runs, baseline) for baseline in ("default", "b"))
     for size, result in ((3, 500.0), (4, -25.0)):
         yield [{**run, "return": result} for run in runs_of(rng, default=size)], "default"
 
@@ -265,7 +266,10 @@ within = partial(close, off={"changes": "no step may exceed `total`"})
 def parts_of_a_training(rng):
     for n, parts in ((5, 3), (60, 3), (60, 4)):
         steps = np.sort(rng.choice(np.arange(1, 6000), n, replace=False))
-        yield steps, rng.normal(size=n).round(3), 6000, parts
+        values, others = rng.normal(size=(2, n)).round(3)
+        yield from ((steps, each, 6000, parts) for each in (values, others))
+        yield from ((steps, values, *other) for other in ((6000, parts + 2), (8000, parts)))
+        yield np.sort(6000 - steps), values, 6000, parts
 
 
 @within(signs, 3, "phase_means")
@@ -320,7 +324,13 @@ def watched(rng, missing):
 @within(signs, 5, "warning_signs", view=told)
 def signs_of_the_last_third(rng):
     for missing in (0, 0, 0, 4, 4, 4):
-        yield watched(rng, missing)
+        indicators, total, chosen = watched(rng, missing)
+        yield from ((indicators, steps, chosen) for steps in (total, 3300))
+        sides = {"above": "below", "below": "above"}
+        turned = {sign: (name, sides[side], at) for sign, (name, side, at) in chosen.items()}
+        yield indicators, total, turned
+        low = {name: each | {"values": each["values"] - 9} for name, each in indicators.items()}
+        yield low, total, chosen
 
 
 relating = exercise.task("14.7", "Which indicators go with success?")
@@ -353,7 +363,9 @@ def inside_variants(rng):
         which = rng.permutation(np.repeat(np.arange(kinds), rng.integers(2, 6, kinds)))
         numbers = rng.normal(size=len(which)) + 100 * which
         numbers[which == 0] = 0.1 + 0.7  # equal ones stay equal
-        yield numbers, [f"variant {kind}" for kind in which]
+        names = [f"variant {kind}" for kind in which]
+        yield from ((numbers, each) for each in (names, names[::-1]))
+        yield np.sin(numbers), names
 
 
 equal = exercise.task("14.8", "Evolution and PPO at equal steps")

@@ -176,9 +176,9 @@ def cross_entropy(scores: torch.Tensor, actions: torch.Tensor) -> torch.Tensor:
     """The loss, a tensor of shape (), through which torch can compute gradients.
 
     scores has the shape (N, actions); actions, shape (N,), holds whole numbers from 0. Write it
-    with torch's functions, but without those that are the answer: cross_entropy, nll_loss,
-    log_softmax (also torch.log_softmax and that of tensors) and torch's distributions are
-    refused. As in task 12.1, scores may be large.
+    with torch's functions, but without those that are the answer: cross_entropy (also the binary
+    one), nll_loss, log_softmax (also torch.log_softmax and that of tensors) and torch's
+    distributions are refused. As in task 12.1, scores may be large.
     """
     ### BEGIN SOLUTION task 12.5: measure the surprise
     chosen = scores[torch.arange(len(actions)), actions]

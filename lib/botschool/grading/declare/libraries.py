@@ -27,7 +27,9 @@ CROSS_ENTROPY = (
             "_sparse_log_softmax.int", "_sparse_log_softmax.Dimname", "cross_entropy_loss",
             "nll_loss", "nll_loss.out", "nll_loss_nd", "nll_loss2d", "nll_loss2d.out",
             "nll_loss_forward", "nll_loss_forward.output", "nll_loss2d_forward",
-            "nll_loss2d_forward.output",
+            "nll_loss2d_forward.output", "binary_cross_entropy", "binary_cross_entropy.out",
+            "binary_cross_entropy_with_logits", "binary_cross_entropy_with_logits.out",
+            "soft_margin_loss", "soft_margin_loss.out",
         )
     ),
     "torch.distributions", *_TORCH_IN_PYTHON, "scipy.special._logsumexp", "sklearn", *_SB3,
@@ -39,7 +41,10 @@ GAUSSIAN_DENSITY = (
     "scipy.stats",
     *_SB3,
 )
-ENTROPY = ("torch.distributions", "scipy.stats", *_NATIVE_PPO, *_SB3)
+ENTROPY = (
+    *(f"scipy.special._ufuncs:{name}" for name in ("entr", "rel_entr", "kl_div")),
+    "torch.special", "torch.distributions", "scipy.stats", *_NATIVE_PPO, *_SB3,
+)  # fmt: skip
 ADVANTAGES = (*_NATIVE_PPO, *_SB3)
 EXPLAINED_VARIANCE = ("sklearn", *_NATIVE_PPO, *_SB3)
 UPDATES_MADE = (*_NATIVE_PPO, *_SB3)

@@ -54,6 +54,8 @@ PATIENCE, SLOWER = 5.0, 20.0
 """Seconds that a call may take, which may import a package, and how many times as long as ours."""
 HURRY = 1.0
 """As PATIENCE, once a call of the task has not returned in time."""
+SETTINGS = 6
+"""Numbers in a list of which each is changed by itself."""
 SHORT = 110
 """Characters of a call that is shown as Python."""
 SINGLE = 1e-4
@@ -244,15 +246,25 @@ class Same:
 
     def more(self) -> Iterator[tuple[str, tuple]]:
         """Yield a name from KEEPS and arguments: what every function must keep."""
-        ours = self.task.exercise.ours
-        for arguments, others in self._pairs()[: OF_A_DRIVER if callable(self.what) else BASES]:
-            answer = ours.answer(self.what, arguments)
-            if answer.seconds > QUICK:
+        ours, pairs = self.task.exercise.ours, self._pairs()
+        places, felt = set[tuple](), set[tuple]()
+        bases = OF_A_DRIVER if callable(self.what) else BASES
+        for at, (arguments, others) in enumerate(pairs):
+            places |= {(n,) for n, e in enumerate(arguments) if not isinstance(e, (dict, list))}
+            all_felt = at >= bases and places <= felt
+            if all_felt or ours.answer(self.what, arguments).seconds > QUICK:
                 return
-            made = [("draw", others), ("again", arguments)]
-            if len(arguments) > 1:
-                made += [("changes", each) for each in _one_changed(arguments, others)]
-            if not callable(self.what):
+            made = [("draw", others), ("again", arguments)] if at < bases else []
+            if "changes" not in self.off and (arguments[1:] or isinstance(arguments[0], dict)):
+                others = _with_others(arguments, others, self._of_the_task)
+                for place, each in _one_changed(arguments, others):
+                    places.add(place)
+                    if place not in felt and self._feels(arguments, each):
+                        felt.add(place)
+                    elif at >= bases:
+                        continue
+                    made.append(("changes", each))
+            if at < bases and not callable(self.what):
                 made += [(name, each) for name, each in _cut(arguments)]
                 made.append(("single", _mapped(arguments, _in_single)))
                 if re.search(rf"\b{self.what}\(\[", _docstring(ours.solution, self.what)):
@@ -261,6 +273,19 @@ class Same:
             for name, each in made:
                 if name not in self.off and (name == "again" or pack([*each]) != base):
                     yield name, each
+
+    def _of_the_task(self) -> list[tuple]:
+        """Return the inputs of all checks of the task that call the same."""
+        checks = (check for _, _, check in self.task.checks)
+        same = (each for each in checks if isinstance(each, Same) and each.what == self.what)
+        return [arguments for check in same for arguments in check.inputs()]
+
+    def _feels(self, arguments: tuple, changed: tuple) -> bool:
+        """Return whether our answer changes with the arguments: only then a cache is seen."""
+        if self.view is not None:
+            return True
+        one, other = (self.task.exercise.ours.answer(self.what, e) for e in (arguments, changed))
+        return not other.raised and not self.equal(arguments, one.value, other.value)
 
 
 def _before_another(module, name, arguments, others):
@@ -311,34 +336,52 @@ def _finite(value: Any) -> bool:
     return bool(np.isfinite(value).all()) if number else True
 
 
-def _one_changed(value: Any, other: Any) -> Iterator[Any]:
-    """Yield a tuple, list or dict with one part changed, to what the other one has if it may be."""
+def _with_others(arguments: tuple, others: tuple, inputs: Callable[[], list[tuple]]) -> tuple:
+    """Return the others; a text or array that is the same in both comes from another input."""
+    found = list(others)
+    for place, (one, other) in enumerate(zip(arguments, others, strict=False)):
+        if isinstance(one, (str, np.ndarray)) and pack([one]) == pack([other]):
+            given = (each[place] for each in inputs() if len(each) > place)
+            found[place] = next((each for each in given if _stands_for(one, each)), other)
+    return tuple(found)
+
+
+def _stands_for(one: Any, other: Any) -> bool:
+    """Return whether another value of the same kind and shape differs."""
+    alike = type(one) is type(other) and np.shape(one) == np.shape(other)
+    return alike and pack([one]) != pack([other])
+
+
+def _one_changed(value: Any, other: Any) -> Iterator[tuple[tuple, Any]]:
+    """Yield (place, a tuple, list or dict with one part changed), as the other one has it."""
     places = list(value) if isinstance(value, dict) else range(len(value))
     if type(value) is not type(other) or len(value) != len(other):
         return
     for place in places:
         if isinstance(value, dict) and place not in other:
             continue
-        for new in _changed(value[place], other[place]):
+        for inner, new in _changed(value[place], other[place]):
             parts: Any = copy.copy(value) if isinstance(value, dict) else list(value)
             parts[place] = new
-            yield tuple(parts) if isinstance(value, tuple) else parts
+            yield (place, *inner), tuple(parts) if isinstance(value, tuple) else parts
 
 
-def _changed(value: Any, other: Any) -> Iterator[Any]:
-    """Yield other values that may stand for a value; other: of another draw."""
+def _changed(value: Any, other: Any) -> Iterator[tuple[tuple, Any]]:
+    """Yield (place in it, another value that may stand for a value); other: of another draw."""
     if isinstance(value, np.ndarray):
         if np.shape(other) == value.shape and not np.array_equal(value, other):
-            yield other
+            yield (), other
     elif isinstance(value, dict):
         yield from _one_changed(value, other)
     elif type(value) is type(other) and pack([value]) != pack([other]):
         if not isinstance(value, (list, tuple)) or len(value) == len(other):
-            yield other
+            yield (), other
     elif isinstance(value, int) and not isinstance(value, bool) and value >= 2:
-        yield value - 2  # even numbers stay even
+        yield (), value - 2  # even numbers stay even
     elif isinstance(value, float) and value:
-        yield value / 2
+        yield (), value / 2
+    if isinstance(value, list) and len(value) <= SETTINGS and _numbers(value):
+        yield from _one_changed(value, other)
 
 
 def _cut(arguments: tuple) -> Iterator[tuple[str, tuple]]:
@@ -352,14 +395,20 @@ def _cut(arguments: tuple) -> Iterator[tuple[str, tuple]]:
         dicts = [each.values() for each in arguments if isinstance(each, dict)]
         tables = [e for parts in dicts for e in parts if isinstance(e, np.ndarray) and e.ndim > 1]
     sizes = {n for table in tables for n in table.shape}
+    rows = len(tables[0]) if given and tables else 0
     if not sizes or 0 in sizes:
         return
     for name, size in (("square", min(sizes)), ("one", 1)):
 
         def cut(array: np.ndarray, size: int = size) -> np.ndarray:
-            return array[tuple(slice(size if n in sizes else n) for n in array.shape)]
+            return array[tuple(slice(_length(n, sizes, rows, size)) for n in array.shape)]
 
         yield name, _mapped(arguments, cut, inside=True)
+
+
+def _length(n: int, sizes: set[int], rows: int, size: int) -> int:
+    """Return the length that n becomes; an array may have two places for each row of a table."""
+    return size if n in sizes else size * (n // rows) if rows and n % rows == 0 else n
 
 
 def _in_single(array: np.ndarray) -> np.ndarray:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from contextlib import closing, suppress
+from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -93,14 +93,14 @@ class Explanation:
     def _cause(self, calls: list[Call], again: Student) -> str:
         """Return a sentence on the cause, or ""."""
         limits = SECONDS, self.task.memory, self.ours.server, True
+        first = self.failures[0].check
         with closing(Student(self.ours.place, *limits)) as other:
-            # of two mistakes, one may explain the first check, and leave the others right
-            first = [replace(e, loose=e.check is not self.failures[0].check) for e in calls]
-            for some in (calls, first):
-                with suppress(BotschoolError, Wrong):  # no time is left
-                    if told := named(other, some, self.task, self.known, again.text):
-                        return told
-        return "" if self.quiet else self._diagnosed(calls) or self._not_steady(again)
+            if told := named(other, calls, first, self.task, self.known, again.text):
+                return told
+        if self.quiet:
+            return ""
+        of_first = [call for call in calls if call.check is first]
+        return self._diagnosed(calls) or self._diagnosed(of_first) or self._not_steady(again)
 
     def _diagnosed(self, calls: list[Call]) -> str:
         """Return a sentence that nearly all wrong answers suggest, two at least, or "".

@@ -15,7 +15,8 @@ import math
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from itertools import count, islice
 from typing import Any, TypeVar
 
@@ -46,6 +47,10 @@ BATCH = 16
 """Slips that are tried in one request."""
 MOST = 100
 """Mistakes of a task to try."""
+STRICT, LOOSE, LOOSEST = 0, 1, 2
+"""How well a mistake must explain a call: with LOOSE it may also leave the answer right; with
+LOOSEST it may also be wrong in another way where the answer is wrong.
+"""
 INPUTS, COUNTS = 2, 4
 """Smallest number of different calls that must point to a mistake; the second is for slips if all
 answers are small whole numbers.
@@ -72,18 +77,23 @@ class Call:
     """Whether two answers are the same to the grader, if it looks at parts of them only."""
 
     check: Check | None = None
-    loose: bool = False
-    """Whether a mistake may also leave this answer right, because another mistake changed it."""
+    loose: int = STRICT
+    """Whether another mistake may have changed this answer, too: one of STRICT, LOOSE, LOOSEST."""
 
     @property
     def wrong(self) -> bool:
-        if self.equal is not None and not _raised(self.got):
-            return not self.equal(self.got, self.ours)
-        return distance(self.got, self.ours) > TIE
+        return self._is_wrong(self.got)
+
+    def _is_wrong(self, answer: Any) -> bool:
+        if self.equal is not None and not _raised(answer):
+            return not self.equal(answer, self.ours)
+        return distance(answer, self.ours) > TIE
 
     def agrees(self, made: Any) -> bool:
         """Return whether an answer equals the submission's; any wrong one equals an exception."""
         if self.loose and distance(made, self.ours) <= TIE:
+            return True
+        if self.loose == LOOSEST and self.wrong and self._is_wrong(made):
             return True
         if _raised(self.got):
             return made == self.got if _raised(made) else distance(made, self.ours) > TIE
@@ -129,25 +139,47 @@ def _as_array(value: Any) -> np.ndarray | None:
     return array if array.dtype.kind in "biuf" else None
 
 
-def named(ours: Student, calls: list[Call], task: Task, known: Known, text: str) -> str:
-    """Return a line about the known mistake, or the slip, that gives all these answers, or "".
+def named(
+    ours: Student, calls: list[Call], first: Check | None, task: Task, known: Known, text: str
+) -> str:
+    """Return a line about the known mistake, or the slip, that gives these answers, or "".
 
-    ours: our solution in a process whose time limits the search. text: the submission's.
+    Of two mistakes, one may explain the calls of the first check that fails: it is named if
+    nothing explains all calls. ours: our solution in a process whose time limits the search.
+    text: the submission's.
     """
-    if not known.solution or not _tells(calls, [call.got for call in calls]):
+    levels = {
+        level: [replace(each, loose=STRICT if each.check is first else level) for each in calls]
+        for level in (STRICT, LOOSE, LOOSEST)
+    }
+    levels = {n: some for n, some in levels.items() if _tells(some, [e.got for e in some])}
+    if not known.solution or not levels:
         return ""
     made = [(each.what, _changed(each, known.solution)) for each in known.of(task.id)[:MOST]]
     quick = [pair for pair in made if _imports_little(pair[1], known.solution)]
-    for what, wrong in _fitting(ours, quick, calls):
-        if _explains(ours, wrong, calls):
-            return line_about(what)
-    slips = _slips(ours, task, known, calls)
-    if slip := _clearest(each for each in slips if may_be_true(each, text)):
-        return f"{VARIED} {_placed(slip, text)}"
-    others = (
-        what for what, wrong in made if (what, wrong) not in quick and _explains(ours, wrong, calls)
-    )
-    return line_about(what) if (what := next(others, "")) else ""
+    rest = [pair for pair in made if pair not in quick]
+    found, at = "", None
+    with suppress(BotschoolError, Wrong):  # no time is left
+        near = [*_fitting(ours, quick, [*levels.values()][-1])]
+        for level, some in levels.items():
+            if found := _mistake(ours, near, some):
+                at = level
+                break
+        for level, some in levels.items():
+            if level in (at, LOOSEST):
+                break
+            slips = _slips(ours, task, known, some)
+            if slip := _clearest(each for each in slips if may_be_true(each, text)):
+                return f"{VARIED} {_placed(slip, text)}"
+            if told := _mistake(ours, rest, some):
+                return told
+    return found
+
+
+def _mistake(ours: Student, made: list[tuple[str, str]], calls: list[Call]) -> str:
+    """Return a line about the first of these mistakes that explains all calls, or ""."""
+    fits = (what for what, wrong in made if _explains(ours, wrong, calls))
+    return line_about(what) if (what := next(fits, "")) else ""
 
 
 def line_about(what: str) -> str:

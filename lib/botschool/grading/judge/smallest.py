@@ -23,8 +23,8 @@ MOST_ROWS = 60
 """Single rows to try."""
 PREFIXES = (1, 2, 3, 4, 6, 8)
 """Numbers of first rows to try."""
-LONGEST, MOST = 640, 72
-"""Characters of a call to show, and numbers in one of its arguments."""
+LONGEST, WORDS, MOST = 640, 48, 72
+"""Characters and words of a call to show, and numbers in one of its arguments."""
 DIGITS = (3, 5, 17)
 """Digits of fractions in such a call; the first that makes the answers differ is used."""
 APART = 1e-4
@@ -60,7 +60,8 @@ def _told(call: dict[str, Any], found: Student, ours: Student) -> tuple[str, dic
         simple = _rounded(call, digits)
         parts = simple["name"], tuple(simple["arguments"]), simple["options"]
         text = pasted(*parts, LONGEST, MOST)
-        if not text or ours.seconds_left <= 0 or found.seconds_left <= 0:
+        many = len(text.split()) > WORDS
+        if not text or many or ours.seconds_left <= 0 or found.seconds_left <= 0:
             continue
         try:
             right, got = ours.ask(simple), found.ask(simple)

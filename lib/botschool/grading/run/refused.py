@@ -163,6 +163,9 @@ def refuse(names):
         elif part is not None:
             with contextlib.suppress(TypeError):  # a type in C cannot change
                 setattr(owner, last, raising(name))
+            for module in list(sys.modules.values()):  # another one may have its name, too
+                if getattr(module, "__dict__", {}).get(last) is part:
+                    setattr(module, last, raising(name))
 
     def close_loaded():
         """Refuse every function of hidden modules that are loaded, wherever it is kept."""
