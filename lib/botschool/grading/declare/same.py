@@ -255,7 +255,8 @@ class Same:
             if all_felt or ours.answer(self.what, arguments).seconds > QUICK:
                 return
             made = [("draw", others), ("again", arguments)] if at < bases else []
-            if "changes" not in self.off and (arguments[1:] or isinstance(arguments[0], dict)):
+            several = len(arguments) > 1 or any(isinstance(each, dict) for each in arguments)
+            if several and "changes" not in self.off:
                 others = _with_others(arguments, others, self._of_the_task)
                 for place, each in _one_changed(arguments, others):
                     places.add(place)
