@@ -257,7 +257,8 @@ class Same:
             made = [("draw", others), ("again", arguments)] if at < bases else []
             several = len(arguments) > 1 or any(isinstance(each, dict) for each in arguments)
             if several and "changes" not in self.off:
-                others = _with_others(arguments, others, self._of_the_task)
+                if not callable(self.what):  # a driver's arguments may need each other
+                    others = _with_others(arguments, others, self._of_the_task)
                 for place, each in _one_changed(arguments, others):
                     places.add(place)
                     if place not in felt and self._feels(arguments, each):
