@@ -150,7 +150,7 @@ def test_a_third_seed_decides_about_a_training_with_an_unlucky_one(monkeypatch, 
             self.rewired = SimpleNamespace(nearest=lambda parameters: parameters)
             return trained[-1]
 
-    monkeypatch.setattr(grader, "Robot", Robot)
+    monkeypatch.setattr("botschool.course.evaluation.Robot", Robot)
     with pytest.raises(Wrong, match=told) if told else contextlib.nullcontext():
         grader.expect_trained(Student(), "Pendulum-v1", 22, -600)
     assert len(trained) == len(means)
