@@ -132,6 +132,11 @@ class Connection:
 
     def _connect(self, timeout: float) -> None:
         """Connect a new client. Raises BotschoolError."""
+        if self.address.startswith("tls:") and not _has_certificates():
+            raise BotschoolError(
+                f"{self.address} needs certificates: name them in Dask's settings, "
+                "distributed.comm.tls (ca-file, client.cert and client.key)."
+            )
         try:
             with unheard(FROM_TERMINAL):
                 self._client: Any = distributed.Client(
@@ -143,10 +148,7 @@ class Connection:
             self.loop = self._client.loop.asyncio_loop
             """The loop in which `members` and `submit` run."""
         except Exception as error:
-            trusted = (
-                " and the certificates of both sides (in Dask's settings distributed.comm.tls: "
-                "ca-file, client.cert and client.key)"
-            )
+            trusted = " and the certificates of both sides"
             raise BotschoolError(
                 f"No scheduler answers at {self.address} ({said(error)}): start one with 'dask "
                 f"scheduler', or check the address{trusted * self.address.startswith('tls:')}."
@@ -175,6 +177,17 @@ class Connection:
             for process in multiprocessing.active_children():
                 if "Dask" in process.name:  # Python would wait for it
                     process.kill()
+
+
+def _has_certificates() -> bool:
+    """Return whether Dask's settings name the certificates that a client needs."""
+    try:
+        return distributed.Security().get_connection_args("client").get("ssl_context") is not None
+    except Exception as error:
+        raise BotschoolError(
+            f"The certificates in Dask's settings distributed.comm.tls cannot be used "
+            f"({said(error)})."
+        ) from None
 
 
 def _track_processes() -> None:
