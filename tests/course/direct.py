@@ -86,14 +86,14 @@ class DirectOurs:
         return self._kept[key]
 
 
-def problem(task, text):
-    """Why a text loses points of a task; "" if it does not."""
+def problem(task, text, seconds=SECONDS):
+    """Why a text loses points of a task; "" if it does not. seconds: of the processor, at most."""
 
     def end(*_):
         raise Slow
 
     signal.signal(signal.SIGPROF, end)
-    signal.setitimer(signal.ITIMER_PROF, SECONDS)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
     quiet, before = io.StringIO(), os.getcwd()
     try:
         with (

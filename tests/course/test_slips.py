@@ -6,6 +6,7 @@ an exercise, and `make test` a sample. Tasks that may take long are left out.
 
 import hashlib
 import importlib
+import time
 import warnings
 
 import pytest
@@ -13,14 +14,14 @@ import pytest
 import building
 from botschool.grading.declare.exercise import missing_packages
 from botschool.grading.judge.variations import variations
-from direct import DirectOurs, problem
+from direct import SECONDS, DirectOurs, problem
 
 SAMPLE = 12
 """Slips of an exercise in the sample."""
 
 
 def slips(number):
-    """(task, slip) of all tasks that declare inputs."""
+    """(task, slip, processor seconds to try it) of all tasks that declare inputs."""
     loaded = building.exercise(number)
     if missing_packages(loaded.extras):
         return []
@@ -28,9 +29,14 @@ def slips(number):
         importlib.import_module(name)
     solution = loaded.known.solution
     loaded.ours = DirectOurs(solution)
-    tasks = [task for task in loaded.tasks if task.seconds <= building.QUICK]
-    assert not any(problem(task, solution) for task in tasks)  # else each slip would seem caught
-    return [(task, slip) for task in tasks for slip in variations(solution, task.id)]
+    found = []
+    for task in loaded.tasks:
+        if task.seconds <= building.QUICK:
+            began = time.process_time()
+            assert not problem(task, solution, 60)  # else each slip would seem caught
+            seconds = SECONDS + 2 * (time.process_time() - began)
+            found += [(task, slip, seconds) for slip in variations(solution, task.id)]
+    return found
 
 
 def equal(number):
@@ -43,7 +49,11 @@ def missed(number, chosen):
     """Lines for the slips that lose no points."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        return {f"{task.id}: {each.what}" for task, each in chosen if not problem(task, each.text)}
+        return {
+            f"{task.id}: {slip.what}"
+            for task, slip, seconds in chosen
+            if not problem(task, slip.text, seconds)
+        }
 
 
 @pytest.fixture(autouse=True)
@@ -53,8 +63,8 @@ def elsewhere(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
 
 
-def order(pair):
-    return hashlib.sha256(pair[1].text.encode()).digest()
+def order(tried):
+    return hashlib.sha256(tried[1].text.encode()).digest()
 
 
 @pytest.mark.parametrize("number", building.GRADED, ids="ex{:02d}".format)
