@@ -190,7 +190,7 @@ def text_of_page(page: str) -> str:
     return re.sub(r"\n{3,}", "\n\n", text).strip("\n") + "\n"
 
 
-_PIECE = re.compile(r"<(/?)([a-zA-Z][a-zA-Z0-9]*)([^<>]*)>|<[!?][^<>]*>|[^<]+|<")
+_PIECE = re.compile(r"<(/?)([a-zA-Z][a-zA-Z0-9]*)((?:[^a-zA-Z0-9<>][^<>]*)?)>|<[!?][^<>]*>|[^<]+|<")
 """A tag of a web page, or a piece of its text."""
 _CLASS = re.compile(r"""\bclass *= {0,9}["']?([^"'<>]*)""", re.IGNORECASE)
 _BLOCKS = {"p", "div", "li", "tr", "pre", "h1", "h2", "h3", "h4", "table", "ul", "ol"}
