@@ -15,6 +15,7 @@ from functools import partial
 from pathlib import Path
 
 from botschool.errors import BotschoolError
+from botschool.grading.copies.links import leave_out_what_no_text_shows
 from botschool.grading.copies.skeleton import find_leaks, pairs, skeleton
 from botschool.grading.declare.exercise import exercise_numbers, folder_of
 from botschool.grading.declare.mistakes import case_text
@@ -220,7 +221,7 @@ def _build(root: Path, made: Path, numbers: set[int], compiled: bool) -> None:
         _change(grader, partial(_packed, root=root, folder=grader.parent.name))
     pack_measures(made / "lib" / "botschool", made / "lib" / "botschool")
     if not compiled:
-        _leave_out_what_no_text_shows(made)
+        leave_out_what_no_text_shows(made)
     start = made / START
     if start.is_file():
         _change(start, lambda text: _rows(text, start.parent))
@@ -252,35 +253,6 @@ def pack_measures(package: Path, target: Path) -> None:
         place.parent.mkdir(parents=True, exist_ok=True)
         packed = text if is_packed(text) else pack_module(text)
         place.write_text(packed, encoding="utf-8", newline="\n")
-
-
-_LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#\s:]+)(#[^)\s]*)?\)")
-
-
-def _leave_out_what_no_text_shows(made: Path) -> None:
-    """Remove replays without a link and pictures without a text, and links to missing files.
-
-    A link to a file that the copy lacks becomes plain text.
-    """
-    texts = {path: path.read_text(encoding="utf-8") for path in made.rglob("*.md")}
-    kept = {
-        (path.parent / link[3]).resolve()
-        for path, text in texts.items()
-        for link in _LINK.finditer(text)
-        if link[1] or made / "exercises" in path.parents
-    }
-    for top in ("replays", "images"):
-        for path in sorted((made / "docs" / top).rglob("*")):
-            if path.is_file() and path.resolve() not in kept:
-                path.unlink()
-    for path, text in texts.items():
-        there = partial(_if_there, folder=path.parent)
-        path.write_text(_LINK.sub(there, text), encoding="utf-8", newline="\n")
-
-
-def _if_there(link: re.Match, folder: Path) -> str:
-    """Return a link unchanged, or only its text if the file does not exist."""
-    return link[0] if (folder / link[3]).exists() else link[2]
 
 
 def _pack_answers(root: Path, made: Path, wanted: bool) -> None:

@@ -14,7 +14,6 @@ grader may stand for the name: a driver, run with the module in both confined pr
 from __future__ import annotations
 
 import ast
-import copy
 import functools
 import re
 from collections.abc import Callable, Iterable, Iterator
@@ -23,13 +22,15 @@ from typing import Any
 import numpy as np
 
 from botschool.errors import BotschoolError
-from botschool.grading.declare.checks import (
-    Wrong,
-    expect,
-    expect_close,
-    expect_fields,
-    show,
+from botschool.grading.declare.arguments import (
+    cut_to_size,
+    in_single,
+    mapped,
+    numbers,
+    one_changed,
+    with_others,
 )
+from botschool.grading.declare.checks import Wrong, expect, expect_close, expect_fields, show
 from botschool.grading.declare.exercise import Task
 from botschool.grading.declare.values import argument
 from botschool.sandbox.protocol import pack
@@ -54,8 +55,6 @@ PATIENCE, SLOWER = 5.0, 20.0
 """Seconds that a call may take, which may import a package, and how many times as long as ours."""
 HURRY = 1.0
 """As PATIENCE, once a call of the task has not returned in time."""
-SETTINGS = 6
-"""Numbers in a list of which each is changed by itself."""
 SHORT = 110
 """Characters of a call that is shown as Python."""
 SINGLE = 1e-4
@@ -258,8 +257,8 @@ class Same:
             several = len(arguments) > 1 or any(isinstance(each, dict) for each in arguments)
             if several and "changes" not in self.off:
                 if not callable(self.what):  # a driver's arguments may need each other
-                    others = _with_others(arguments, others, self._of_the_task)
-                for place, each in _one_changed(arguments, others):
+                    others = with_others(arguments, others, self._of_the_task)
+                for place, each in one_changed(arguments, others):
                     places.add(place)
                     if place not in felt and self._feels(arguments, each):
                         felt.add(place)
@@ -267,10 +266,10 @@ class Same:
                         continue
                     made.append(("changes", each))
             if at < bases and not callable(self.what):
-                made += [(name, each) for name, each in _cut(arguments)]
-                made.append(("single", _mapped(arguments, _in_single)))
+                made += [(name, each) for name, each in cut_to_size(arguments)]
+                made.append(("single", mapped(arguments, in_single)))
                 if re.search(rf"\b{self.what}\(\[", _docstring(ours.solution, self.what)):
-                    made.append(("list", _mapped(arguments, lambda array: array.tolist())))
+                    made.append(("list", mapped(arguments, lambda array: array.tolist())))
             base = pack([*arguments])
             for name, each in made:
                 if name not in self.off and (name == "again" or pack([*each]) != base):
@@ -304,7 +303,7 @@ def alike(said: str, got: Any, wanted: Any, tolerance: float, parts: tuple[str, 
         for key in keys:  # a view may show fewer parts of a wrong answer
             value = expect_fields(said, got, key)[0]
             alike(f"{said}: {key}", value, wanted[key], tolerance)
-    elif isinstance(wanted, (list, tuple)) and not _numbers(wanted):
+    elif isinstance(wanted, (list, tuple)) and not numbers(wanted):
         names = parts or tuple(f"[{i}]" for i in range(len(wanted)))
         right = isinstance(got, (list, tuple)) and len(got) == len(wanted)
         expect(right, f"{said} should be {len(wanted)} values, not {show(got)}.")
@@ -316,10 +315,6 @@ def alike(said: str, got: Any, wanted: Any, tolerance: float, parts: tuple[str, 
         expect(right, f"{said} is {show(got)}, but {show(wanted)} was expected.")
     else:
         expect_close(said, got, wanted, tolerance)
-
-
-def _numbers(value: Any) -> bool:
-    return all(isinstance(each, (int, float)) and not isinstance(each, bool) for each in value)
 
 
 def _equal(one: Any, other: Any) -> bool:
@@ -336,96 +331,6 @@ def _finite(value: Any) -> bool:
         return all(map(_finite, value.values() if isinstance(value, dict) else value))
     number = isinstance(value, (float, np.ndarray)) and np.asarray(value).dtype.kind == "f"
     return bool(np.isfinite(value).all()) if number else True
-
-
-def _with_others(arguments: tuple, others: tuple, inputs: Callable[[], list[tuple]]) -> tuple:
-    """Return the others; a text or array that is the same in both comes from another input."""
-    found = list(others)
-    for place, (one, other) in enumerate(zip(arguments, others, strict=False)):
-        if isinstance(one, (str, np.ndarray)) and pack([one]) == pack([other]):
-            given = (each[place] for each in inputs() if len(each) > place)
-            found[place] = next((each for each in given if _stands_for(one, each)), other)
-    return tuple(found)
-
-
-def _stands_for(one: Any, other: Any) -> bool:
-    """Return whether another value of the same kind and shape differs."""
-    alike = type(one) is type(other) and np.shape(one) == np.shape(other)
-    return alike and pack([one]) != pack([other])
-
-
-def _one_changed(value: Any, other: Any) -> Iterator[tuple[tuple, Any]]:
-    """Yield (place, a tuple, list or dict with one part changed), as the other one has it."""
-    places = list(value) if isinstance(value, dict) else range(len(value))
-    if type(value) is not type(other) or len(value) != len(other):
-        return
-    for place in places:
-        if isinstance(value, dict) and place not in other:
-            continue
-        for inner, new in _changed(value[place], other[place]):
-            parts: Any = copy.copy(value) if isinstance(value, dict) else list(value)
-            parts[place] = new
-            yield (place, *inner), tuple(parts) if isinstance(value, tuple) else parts
-
-
-def _changed(value: Any, other: Any) -> Iterator[tuple[tuple, Any]]:
-    """Yield (place in it, another value that may stand for a value); other: of another draw."""
-    if isinstance(value, np.ndarray):
-        if np.shape(other) == value.shape and not np.array_equal(value, other):
-            yield (), other
-    elif isinstance(value, dict):
-        yield from _one_changed(value, other)
-    elif type(value) is type(other) and pack([value]) != pack([other]):
-        if not isinstance(value, (list, tuple)) or len(value) == len(other):
-            yield (), other
-    elif isinstance(value, int) and not isinstance(value, bool) and value >= 2:
-        yield (), value - 2  # even numbers stay even
-    elif isinstance(value, float) and value:
-        yield (), value / 2
-    if isinstance(value, list) and len(value) <= SETTINGS and _numbers(value):
-        yield from _one_changed(value, other)
-
-
-def _cut(arguments: tuple) -> Iterator[tuple[str, tuple]]:
-    """Yield arguments whose arrays are cut to a square, then to size one, if one is a table.
-
-    The tables in a dict, as a network's, are cut together with a vector that goes with them.
-    """
-    given = [each for each in arguments if isinstance(each, np.ndarray)]
-    tables = [array for array in given if array.ndim > 1][:1]
-    if given and not tables:
-        dicts = [each.values() for each in arguments if isinstance(each, dict)]
-        tables = [e for parts in dicts for e in parts if isinstance(e, np.ndarray) and e.ndim > 1]
-    sizes = {n for table in tables for n in table.shape}
-    rows = len(tables[0]) if given and tables else 0
-    if not sizes or 0 in sizes:
-        return
-    for name, size in (("square", min(sizes)), ("one", 1)):
-
-        def cut(array: np.ndarray, size: int = size) -> np.ndarray:
-            return array[tuple(slice(_length(n, sizes, rows, size)) for n in array.shape)]
-
-        yield name, _mapped(arguments, cut, inside=True)
-
-
-def _length(n: int, sizes: set[int], rows: int, size: int) -> int:
-    """Return the length that n becomes; an array may have two places for each row of a table."""
-    return size if n in sizes else size * (n // rows) if rows and n % rows == 0 else n
-
-
-def _in_single(array: np.ndarray) -> np.ndarray:
-    return array.astype(np.float32) if array.dtype == np.float64 else array
-
-
-def _mapped(arguments: tuple, change: Callable[[np.ndarray], Any], inside: bool = False) -> tuple:
-    """Return arguments with their arrays changed; inside: those in dicts of arrays, too."""
-
-    def one(value: Any) -> Any:
-        if inside and isinstance(value, dict):
-            return {key: one(part) for key, part in value.items()}
-        return change(value) if isinstance(value, np.ndarray) else value
-
-    return tuple(one(each) for each in arguments)
 
 
 @functools.cache

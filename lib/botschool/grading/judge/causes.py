@@ -21,7 +21,8 @@ from botschool.grading.declare.same import KEPT as STAYS
 from botschool.grading.declare.same import Same
 from botschool.grading.judge.afresh import KEPT, answers_afresh, kept_something
 from botschool.grading.judge.alike import TIE, distance
-from botschool.grading.judge.known import Call, answered_by, calls_of, named
+from botschool.grading.judge.calls import Call
+from botschool.grading.judge.known import answered_by, calls_of, named
 from botschool.grading.judge.looking import Failure, looked_at_again
 from botschool.grading.judge.smallest import difference, smallest_case
 from botschool.grading.run.ours import Ours

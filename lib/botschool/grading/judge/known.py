@@ -14,19 +14,18 @@ from __future__ import annotations
 import math
 import re
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import count, islice
 from typing import Any, TypeVar
-
-import numpy as np
 
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import Task
 from botschool.grading.declare.mistakes import Case, Known
-from botschool.grading.judge.alike import SINGLE, TIE, counts, distance, equal, fits, weight
+from botschool.grading.judge.alike import SINGLE, counts, distance, equal
+from botschool.grading.judge.calls import LOOSE, LOOSEST, STRICT, Call, Check, raised
 from botschool.grading.judge.evidence import may_be_true, words_of
 from botschool.grading.judge.looking import TookTooLong, processor_time_limit
 from botschool.grading.judge.sentences import Variation
@@ -47,10 +46,6 @@ BATCH = 16
 """Slips that are tried in one request."""
 MOST = 100
 """Mistakes of a task to try."""
-STRICT, LOOSE, LOOSEST = 0, 1, 2
-"""How well a mistake must explain a call: with LOOSE it may also leave the answer right; with
-LOOSEST it may also be wrong in another way where the answer is wrong.
-"""
 INPUTS, COUNTS = 2, 4
 """Smallest number of different calls that must point to a mistake; the second is for slips if all
 answers are small whole numbers.
@@ -60,83 +55,7 @@ NOT_DONE = ("NotImplementedError", "Missing")
 T = TypeVar("T")
 _NUMBERS = count()
 """Numbers of the folders in which mistakes are tried: files of one are not found by another."""
-Check = Callable[[Student], None]
 _IMPORTED = re.compile(r"^[ \t]*(?:from|import) +(\w+)", re.MULTILINE)
-
-
-@dataclass
-class Call:
-    """A request, and the answers of our solution and of the submission."""
-
-    request: bytes
-    ours: Any
-    seconds: float = 0.0
-    """Processor seconds that our solution took."""
-    got: Any = None
-    equal: Callable[[Any, Any], bool] | None = None
-    """Whether two answers are the same to the grader, if it looks at parts of them only."""
-
-    check: Check | None = None
-    loose: int = STRICT
-    """Whether another mistake may have changed this answer, too: one of STRICT, LOOSE, LOOSEST."""
-
-    @property
-    def wrong(self) -> bool:
-        return self._is_wrong(self.got)
-
-    def _is_wrong(self, answer: Any) -> bool:
-        if self.equal is not None and not _raised(answer):
-            return not self.equal(answer, self.ours)
-        return distance(answer, self.ours) > TIE
-
-    def agrees(self, made: Any) -> bool:
-        """Return whether an answer equals the submission's; any wrong one equals an exception."""
-        if self.loose and distance(made, self.ours) <= TIE:
-            return True
-        if self.loose == LOOSEST and self.wrong and self._is_wrong(made):
-            return True
-        if _raised(self.got):
-            return made == self.got if _raised(made) else distance(made, self.ours) > TIE
-        if self.equal is not None:
-            return not _raised(made) and self.equal(self.got, made)
-        return fits(self.got, made, self.ours)
-
-    def proof(self, made: Any) -> float:
-        """Return how much proof an answer that agrees is."""
-        unlike = _raised(self.got) and not (_raised(made) and made == self.got)
-        if self.loose or unlike:
-            return 0.0
-        if self.equal is not None and not _raised(self.got):
-            return float(self.wrong)
-        return weight(self.got, made, self.ours)
-
-    def numbers(self) -> tuple[np.ndarray, np.ndarray, list[Any], str] | None:
-        """Return the submission's answer, ours, the arguments, and the name of a part or "".
-
-        Of two dicts it is the first part that differs. None if these are no numbers or arrays.
-        """
-        given, pair, name = unpack(self.request), (self.got, self.ours), ""
-        if "driver" in given:
-            return None
-        if self.equal is None and isinstance(self.ours, dict) and isinstance(self.got, dict):
-            both = ((key, (self.got.get(key), value)) for key, value in self.ours.items())
-            apart = ((key, two) for key, two in both if distance(*two) > TIE)
-            name, pair = next(apart, ("", pair))
-        if not all(isinstance(each, (int, float, np.ndarray, list)) for each in pair):
-            return None
-        got, wanted = (_as_array(each) for each in pair)
-        if got is None or wanted is None:
-            return None
-        return got, wanted, [*given["arguments"]], name
-
-
-def _as_array(value: Any) -> np.ndarray | None:
-    """Return a number, a list of numbers or an array as an array, or None."""
-    try:
-        array = np.asarray(value)
-    except ValueError:  # of lists of different lengths
-        return None
-    return array if array.dtype.kind in "biuf" else None
 
 
 def named(
@@ -220,12 +139,7 @@ def answered_by(submission: Student, call: Call) -> bool:
         if not submission.raised:
             raise
         call.got = submission.raised
-    return not _raised(call.got) or call.got["raised"] not in NOT_DONE
-
-
-def _raised(answer: Any) -> bool:
-    """Return whether an answer stands for an exception."""
-    return isinstance(answer, dict) and answer.keys() == {"raised", "text"}
+    return not raised(call.got) or call.got["raised"] not in NOT_DONE
 
 
 def _changed(case: Case, solution: str) -> str:
@@ -266,7 +180,7 @@ def _telling(calls: list[Call]) -> Call:
         key=lambda c: (
             not c.wrong,
             c.equal is None and distance(c.got, c.ours) <= SINGLE,  # perhaps by rounding
-            _raised(c.got),
+            raised(c.got),
             c.seconds > CASE_SECONDS / 2,
             len(c.request),
         ),
@@ -333,7 +247,7 @@ def _few(wrong: list[Call]) -> bool:
 
     Many slips may lead to these.
     """
-    told = [call for call in wrong if not _raised(call.got)]
+    told = [call for call in wrong if not raised(call.got)]
     return not told or (all(counts(call.got) for call in told) and len(wrong) < COUNTS)
 
 
@@ -425,6 +339,6 @@ def _tells(calls: list[Call], answers: list[Any]) -> bool:
     told: dict[bytes, float] = {}
     for call, answer in zip(calls, answers, strict=True):
         told[call.request] = max(told.get(call.request, 0.0), call.proof(answer))
-    raised = {call.request for call in calls if _raised(call.got)}
-    only = not any(proof for request, proof in told.items() if request not in raised)
+    failing = {call.request for call in calls if raised(call.got)}
+    only = not any(proof for request, proof in told.items() if request not in failing)
     return sum(told.values()) / (2 if only else 1) >= INPUTS
