@@ -465,3 +465,42 @@ def test_the_other_draw_of_an_input_is_of_the_same_kind():
         assert len(pairs[0][0][1]) <= len(pairs[1][0][1])
         orders.add(pairs[0][0][0])
     assert orders == {"one", "two"}
+
+
+PAID = '''"""A solution."""
+
+
+def paid(robot, ways, effort):
+    """The pay of a robot; effort counts only beside several ways."""
+    ### BEGIN SOLUTION task 4.1: pay
+    return {"ant": 2.0, "hopper": 1.0}[robot] * sum(ways) - effort * (len(ways) > 1)
+    ### END SOLUTION
+'''
+FORGETFUL = """
+_ours, _made = paid, {{}}
+
+
+def paid(robot, ways, effort):
+    ways = tuple(ways)
+    return _made.setdefault({}, _ours(robot, ways, effort))
+"""
+
+
+@pytest.mark.parametrize(
+    ("key", "points"),
+    [("(robot, ways, effort)", 100), ("(ways, effort)", 0), ("(robot, ways)", 0)],
+)
+def test_a_cache_is_seen_where_an_argument_is_felt(tmp_path, server, key, points):
+    """Both draws have the same texts, and the effort counts in none of the first inputs."""
+    made = Exercise(4, "Tiny", file="tiny.py")
+
+    @same(made.task("4.1", "Pay"), 100, "paid")
+    def pays(rng):
+        for many in (1, 1, 4):
+            for robot in ("ant", "hopper"):
+                yield robot, rng.uniform(size=many).tolist(), rng.uniform()
+
+    made.knows(PAID)
+    file = tmp_path / "tiny.py"
+    file.write_text(PAID + FORGETFUL.format(key))
+    assert grade(made, file, server=server).points == points

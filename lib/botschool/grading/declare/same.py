@@ -253,7 +253,8 @@ class Same:
             all_felt = at >= bases and places <= felt
             if all_felt or ours.answer(self.what, arguments).seconds > QUICK:
                 return
-            made = [("draw", others), ("again", arguments)] if at < bases else []
+            made = [("draw", others)] if at < bases else []
+            changed: list[tuple[str, tuple]] = []
             several = len(arguments) > 1 or any(isinstance(each, dict) for each in arguments)
             if several and "changes" not in self.off:
                 if not callable(self.what):  # a driver's arguments may need each other
@@ -264,7 +265,9 @@ class Same:
                         felt.add(place)
                     elif at >= bases:
                         continue
-                    made.append(("changes", each))
+                    changed.append(("changes", each))
+            if at < bases or changed:  # a cache of the new process needs the call itself
+                made += [("again", arguments), *changed]
             if at < bases and not callable(self.what):
                 made += [(name, each) for name, each in cut_to_size(arguments)]
                 made.append(("single", mapped(arguments, in_single)))
