@@ -6,12 +6,14 @@ The untrusted code runs in this very process, so the caller must not trust any a
 from __future__ import annotations
 
 import faulthandler
+import functools
 import importlib.util
 import os
 import signal
 import sys
 import tempfile
 import threading
+import types
 from pathlib import Path
 from typing import Any
 
@@ -61,8 +63,13 @@ class Pipes:
 def called(driver: str, name: str, *arguments: Any) -> Any:
     """Call a function that was sent as source."""
     names: dict[str, Any] = {}
-    exec(compile(driver, "<driver>", "exec"), names)
+    exec(_compiled(driver), names)
     return names[name](*arguments)
+
+
+@functools.cache
+def _compiled(driver: str) -> types.CodeType:
+    return compile(driver, "<driver>", "exec")
 
 
 def run(module: Any, request: dict[str, Any], pipes: Pipes | None = None) -> Any:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import gc
 import importlib
 import json
 import os
@@ -229,6 +230,7 @@ def main() -> None:
 def _import(modules: list[str]) -> None:
     for name in modules:
         importlib.import_module(name)
+    gc.freeze()  # a child's collector would copy every page on which an object lies
     sys.stdout.flush()
     ctypes.CDLL(None).fflush(None)  # what C libraries have printed must not reach a child's output
 

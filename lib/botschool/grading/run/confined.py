@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import functools
 import hashlib
 import inspect
 import json
@@ -106,6 +107,7 @@ def start_child(
         return Child(server, scratch, file.name, limits, places, references, prepare, listed)
 
 
+@functools.cache
 def source_of(function: Callable[..., Any]) -> str:
     """Return a function's text, to send it to a child."""
     return textwrap.dedent(inspect.getsource(function))

@@ -74,7 +74,7 @@ def refuse(names):
     import sys
     import types
 
-    loaded = []
+    loaded, codes = [], {}
 
     def sentence(name):
         return f"write it yourself: {name} is not to be used here"
@@ -126,14 +126,19 @@ def refuse(names):
 
     def code_for(function, name):
         """Return code that raises, with as many free names as the function's own code."""
-        free = [f"free_{i}" for i in range(len(function.__code__.co_freevars))]
-        lines = ["def make():", *(f"    {each} = None" for each in free)]
-        lines += ["    def refused(*arguments, **options):"]
-        lines += [f"        raise RuntimeError({sentence(name)!r})"]
-        lines += [f"        {each}" for each in free]
-        made = {}
-        exec("\n".join([*lines, "    return refused"]), made)
-        return made["make"]().__code__
+        many = len(function.__code__.co_freevars)
+        if many not in codes:
+            free = [f"free_{i}" for i in range(many)]
+            lines = ["def make():", *(f"    {each} = None" for each in free)]
+            lines += ["    def refused(*arguments, **options):"]
+            lines += ["        raise RuntimeError('SENTENCE')"]
+            lines += [f"        {each}" for each in free]
+            made = {}
+            exec("\n".join([*lines, "    return refused"]), made)
+            codes[many] = made["make"]().__code__
+        code = codes[many]
+        said = (sentence(name) if each == "SENTENCE" else each for each in code.co_consts)
+        return code.replace(co_consts=tuple(said))
 
     def close(function, name):
         """Give a function written in Python other code: all who hold it call that."""
@@ -174,9 +179,12 @@ def refuse(names):
             for name, module in list(sys.modules.items())
             if is_hidden(name) and getattr(module, "__file__", None)
         }
+        if files:
+            gc.unfreeze()  # the server froze what it imported, and frozen objects are not listed
         for each in gc.get_objects() if files else ():
             if type(each) is types.FunctionType and each.__code__.co_filename in files:
                 close(each, f"{each.__module__}.{each.__qualname__}")
+        gc.freeze()
 
     def close_operators(operators):
         """Refuse torch's operators on the processor, for good."""
