@@ -1,16 +1,14 @@
 """Grader of exercise 3; run it with `botschool grade 3`.
 
-Tasks 3.1 and 3.3 to 3.5 draw random numbers as they like, so a view of each answer is compared with
-a view of ours. Task 3.7 trains robots whose parameters count with gains drawn in secret.
+Tasks 3.1 and 3.3 to 3.5 draw random numbers as they like, so views of the answers are compared.
 
 Stochastic checks (task 3.7): two seeds, a third one if just one of them is good enough, and 20
-unseen episodes a controller. Margins are those of 20 seeds, each with gains of its own:
+unseen episodes a controller, on robots with secret gains. Margins are those of 20 seeds:
 
-- CartPole-v0 needs a mean of at least 195. The solution reaches 200.0 with each (margin 5 steps).
-  Of random controllers 3 % reach it too, so this part can also be had by luck.
-- Pendulum-v1 needs a mean of at least -600. The solution reaches -201 to -117 (margin 399), but
-  -633 with one of some hundreds of other seeds. Random controllers reach -1160 +- 90 with the
-  weights of task 3.1 and -1500 +- 150 with weights of deviation 1; the best of 6000 of the latter,
+- CartPole-v0 needs a mean of 195: the solution reaches 200.0 (margin 5 steps), 3 % of random
+  controllers reach 195.
+- Pendulum-v1 needs a mean of -600. The solution reaches -201 to -117 (margin 399), but -633 with
+  one of some hundreds of other seeds. Random controllers reach -1160 +- 90; the best of 6000,
   chosen with 5 and the best 20 again with 20 episodes, -990 to -750.
 """
 
@@ -32,33 +30,31 @@ initial = exercise.task("3.1", "The initial population")
 def parts_of(answer, popsize, nbiases, nweights, seed):
     """What is known of a population of random numbers."""
     population = expect_array("the population", answer, (popsize, nbiases + nweights))
-    weights = population[:, nbiases:]
-    beyond, many = np.mean(np.abs(weights) > 0.2), weights.size > 10_000
+    weights, many = population[:, nbiases:], popsize * nweights > 10_000
     return {
         "the number of biases that are not 0": np.count_nonzero(population[:, :nbiases]),
         "the number of weights that are 0": weights.size - np.count_nonzero(weights),
         "the number of different weights": len(np.unique(weights)),
         "10 times the weights' standard deviation": 10 * weights.std() if many else 1.0,
         "10 times the weights' mean": 10 * weights.mean() if many else 0.0,
-        "whether 4.6 % of the weights are beyond 0.2": 0.03 < beyond < 0.06 if many else True,
+        "whether 4.6 % are beyond 0.2": not many or 0.03 < np.mean(abs(weights) > 0.2) < 0.06,
     }
 
 
-@same(initial, 3, "initial_population", view=lambda answer, *_: list(np.shape(answer)))
-def has_one_row_per_individual(rng):
-    for popsize, nbiases, nweights in ((1, 2, 9), (6, 2, 9), (20, 7, 65)):
-        yield popsize, nbiases, nweights, seed_of(rng)
+def populations(rng, *sizes):
+    for each in sizes:
+        yield *each, seed_of(rng)
 
 
-@same(initial, 5, "initial_population", view=parts_of)
-def zeros_and_random_weights(rng):
-    yield 12, 5, 30, seed_of(rng)
-    yield 12, 2, 30, seed_of(rng)
+def shape_of(answer, *_):
+    return list(np.shape(answer))
 
 
-@same(initial, 4, "initial_population", 0.04, view=parts_of)
-def weights_are_gaussian(rng):
-    yield 100, 0, 500, seed_of(rng)
+FIRST, ROWS = "initial_population", "has_one_row_per_individual"
+few, many = ((12, 5, 30), (12, 2, 30)), (100, 0, 500)
+same(initial, 3, FIRST, view=shape_of, name=ROWS)(populations, (1, 2, 9), (6, 2, 9), (20, 7, 65))
+same(initial, 5, FIRST, view=parts_of, name="zeros_and_random_weights")(populations, *few)
+same(initial, 4, FIRST, 0.04, view=parts_of, name="weights_are_gaussian")(populations, many)
 
 
 def drawn(module, popsize, seed):
@@ -77,13 +73,11 @@ def drawn(module, popsize, seed):
 
 def seeds_in_common(answer, popsize, seed):
     one, again, zero, zero_again, *others = answer
+    near = in_common(one[one.any(axis=1)], np.concatenate(others))  # rows of zeros are all alike
     return {
         "whether the same seed gives the same again": bool(in_common(one, again) == popsize),
         "whether seed 0 gives the same again": np.array_equal(zero, zero_again),
-        "the number of individuals that neighbouring seeds have in common": in_common(
-            one[one.any(axis=1)],
-            np.concatenate(others),  # rows of zeros are all alike
-        ),
+        "the number of individuals that neighbouring seeds have in common": near,
     }
 
 
@@ -112,8 +106,7 @@ def equals_keep_their_order(rng):
 
 
 following = exercise.task("3.3", "The next population", needs=("3.2",), refused=TOOL)
-ZEROS = 8
-"""Parameters that are 0 in the whole population, as all biases are at first."""
+ZEROS = 8  # parameters that are 0 in the whole population, as all biases are at first
 
 
 def steps(module, population, fitness, mutrate, seed):
@@ -134,6 +127,7 @@ def changes_of(answer, population, fitness, mutrate, seed):
     top = fitness > np.median(fitness)
     better, worse = population[top], population[~top]
     noise, parents = noise_of(after, better)
+    again_added = in_common(noise, noise_of(later, better)[0])
     sizes = np.abs(after)
     limited = (sizes == sizes.max()).any(axis=0).sum() > 2 and sizes.max() > 0
     found = {
@@ -142,9 +136,7 @@ def changes_of(answer, population, fitness, mutrate, seed):
         "the numbers of copies": np.bincount(parents, minlength=len(better)),
         "whether nothing limits the parameters": not limited,
         "whether an equal generator gives the same": np.allclose(after, again),
-        "the rows of noise that the next call adds again": in_common(
-            noise, noise_of(later, better)[0]
-        ),
+        "the rows of noise that the next call adds again": again_added,
         "whether population and fitness stay as they were": list(unchanged),
     }
     if noise.size > 1000:
@@ -162,16 +154,16 @@ def changes_of(answer, population, fitness, mutrate, seed):
     return found
 
 
-def step(rng, popsize, mutrate, scale=1.0, many=40):
-    population = scale * rng.normal(size=(popsize, many))
-    population[:, :ZEROS] = 0
-    return population, rng.permutation(popsize) - 3.5, mutrate, seed_of(rng)
+def drawn_steps(rng, *of):
+    for popsize, mutrate, scale, many in of:
+        population = scale * rng.normal(size=(popsize, many))
+        population[:, :ZEROS] = 0
+        yield population, rng.permutation(popsize) - 3.5, mutrate, seed_of(rng)
 
 
-@same(following, 8, steps, view=changes_of)
-def better_half_stays_and_is_copied(rng):
-    for popsize, scale in ((2, 1), (6, 1), (10, 100), (10, 1)):
-        yield step(rng, popsize, 0.02, scale)
+HALF = "better_half_stays_and_is_copied"
+chosen = (2, 0.02, 1, 40), (6, 0.02, 1, 40), (10, 0.02, 100, 40), (10, 0.02, 1, 40)
+same(following, 8, steps, view=changes_of, name=HALF)(drawn_steps, *chosen)
 
 
 def who_stays(answer, population, fitness, mutrate, seed):
@@ -191,10 +183,8 @@ def equal_fitness(rng):
         yield rng.normal(size=(12, 40)), rng.choice(values, size=12), 0.1, seed_of(rng)
 
 
-@same(following, 6, steps, 0.05, view=changes_of)
-def noise_is_gaussian(rng):
-    for mutrate in (0.02, 0.3, 1.5):
-        yield step(rng, 60, mutrate, max(1, 20 * mutrate), 600)
+wide = (60, 0.02, 1, 600), (60, 0.3, 6, 600), (60, 1.5, 30, 600)
+same(following, 6, steps, 0.05, view=changes_of, name="noise_is_gaussian")(drawn_steps, *wide)
 
 
 loop = exercise.task("3.4", "The loop", needs=("3.2", "3.3"), refused=TOOL)
@@ -217,10 +207,7 @@ def evolved(module, name, population, generations, mutrate, seed, least):
 
 
 def run_of(answer, population, least):
-    """The run's report, the populations with the last one, and fitness (generations, rows).
-
-    The fitness is minus the distance from a target, plus the luck of a generation.
-    """
+    """The run's report, all populations, and fitness: minus distances, plus a generation's luck."""
     run, calls, _ = answer
     shape = (2, len(population)) if population.ndim == 1 else population.shape
     given = [expect_array("a population", each, shape) for each, _ in calls]
@@ -235,19 +222,17 @@ def report(answer, name, population, generations, mutrate, seed, least):
     if seeds != list(range(seed, seed + generations)):
         return {"the seeds of evaluate": seeds}
     run, populations, fitness = run_of(answer, population, least)
-    highest = fitness.max(axis=1)
-    scale = 1 + np.abs(highest).max()
+    scale = 1 + np.abs(highest := fitness.max(axis=1)).max()
     good = np.argwhere(fitness >= highest.max() - 1e-6 * scale)
     best = expect_array("best", run["best"], populations[0].shape[1:])
     history = expect_array("history", run["history"], (generations,))
+    apart = min(np.abs(populations[g][i] - best).max() for g, i in good)
     return {
         "the seeds of evaluate": seeds,
         "the first population": populations[0],
         "history, minus the highest fitness of each generation,": (history - highest) / scale,
         "fitness, minus the highest of all,": (float(run["fitness"]) - highest.max()) / scale,
-        "the difference of best from the individual with the highest fitness": min(
-            np.abs(populations[g][i] - best).max() for g, i in good
-        ),
+        "the difference of best from the individual with the highest fitness": apart,
         "whether the first population stays as it was": answer[2],
     }
 
@@ -271,22 +256,19 @@ def lineage(answer, name, population, generations, mutrate, seed, least):
     }
     if len(populations[0]) == 2 and sum(map(np.size, noises)) > 5000:  # so the parent is known
         for when, some in (("first", noises[: len(noises) // 3]), ("the end", noises[-20:])):
-            noise = np.concatenate(some)
-            found[f"the deviation of the noise at {when}, divided by mutrate,"] = (
-                noise.std() / mutrate
-            )
+            deviation = np.std(np.concatenate(some)) / mutrate
+            found[f"the deviation of the noise at {when}, divided by mutrate,"] = deviation
     return found
 
 
-def loop_of(rng, name, shape, generations, mutrate=0.1, least=0.0):
-    return name, rng.normal(size=shape), generations, mutrate, seed_of(rng), least
+def runs(rng, name, *of):
+    for shape, generations, mutrate, least in of:
+        yield name, rng.normal(size=shape), generations, mutrate, seed_of(rng), least
 
 
-@same(loop, 12, evolved, 1e-6, view=report)
-def evaluates_and_reports(rng):
-    yield loop_of(rng, "evolve", (10, 8), 1, least=-100.0)
-    for generations, least in ((5, -1e5), (5, -3e4), (5, 200.0), (5, 1e4), (12, 0.0), (15, -100.0)):
-        yield loop_of(rng, "evolve", (10, 8), generations, least=least)
+LEAST = ((5, -1e5), (5, -3e4), (5, 200.0), (5, 1e4), (12, 0.0), (15, -100.0))  # by generations
+reported = [((10, 8), generations, 0.1, least) for generations, least in ((1, -100.0), *LEAST)]
+same(loop, 12, evolved, 1e-6, view=report, name="evaluates_and_reports")(runs, "evolve", *reported)
 
 
 def seeded(module, name, population, seed):
@@ -308,54 +290,35 @@ def seeded(module, name, population, seed):
 
 def noise_in_common(answer, name, population, seed):
     runs = np.array([run[:3] for run in answer])
-    one, next_one, other = (
+    one, after, other = (
         [noise_of(b, a[np.argsort((a**2).sum(axis=1))[: len(a) // 2]])[0] for a, b in pairwise(run)]
         for run in (runs[0], runs[4], runs[5])
     )
+    of_another, earlier = np.concatenate([after[0], other[0]]), in_common(one[1], after[0])
     return {
         "whether the same seed gives the same again": np.allclose(runs[0], runs[1], 0, 1e-6),
         "whether seed 0 gives the same again": np.allclose(runs[2], runs[3], 0, 1e-6),
-        "the copies of generation 1 that another seed gives, too": in_common(
-            one[0], np.concatenate([next_one[0], other[0]])
-        ),
-        "the copies' noise that the next seed has one generation earlier": in_common(
-            one[1], next_one[0]
-        ),
+        "the copies of generation 1 that another seed gives, too": in_common(one[0], of_another),
+        "the copies' noise that the next seed has one generation earlier": earlier,
     }
 
 
-@same(loop, 4, seeded, view=noise_in_common)
-def seed_decides_the_noise(rng):
-    yield "evolve", rng.normal(size=(10, 8)), seed_of(rng)
+def start(rng, name, shape):
+    yield name, rng.normal(size=shape), seed_of(rng)
 
 
-@same(loop, 4, evolved, 0.05, view=lineage)
-def selects_and_varies(rng):
-    yield loop_of(rng, "evolve", (10, 8), 6)
-    yield loop_of(rng, "evolve", (6, 12), 20, 0.3)
-    yield loop_of(rng, "evolve", (2, 200), 60, 0.02)
-    yield loop_of(rng, "evolve", (2, 250), 60, 0.4)
-
+two = ((2, 200), 60, 0.02, 0.0), ((2, 250), 60, 0.4, 0.0)
+followed = ((10, 8), 6, 0.1, 0.0), ((6, 12), 20, 0.3, 0.0), *two
+same(loop, 4, seeded, view=noise_in_common, name="seed_decides_the_noise")(start, "evolve", (10, 8))
+same(loop, 4, evolved, 0.05, view=lineage, name="selects_and_varies")(runs, "evolve", *followed)
 
 climber = exercise.task("3.5", "A hill climber", needs=("3.4",), refused=TOOL)
-
-
-@same(climber, 5, evolved, 0.05, view=lineage)
-def never_steps_down(rng):
-    yield loop_of(rng, "hill_climb", 5, 15, 0.3, -100.0)
-    yield loop_of(rng, "hill_climb", 200, 60)
-    yield loop_of(rng, "hill_climb", 250, 60, 0.02)
-
-
-@same(climber, 2, evolved, 1e-6, view=report)
-def reports_like_evolve(rng):
-    yield loop_of(rng, "hill_climb", 5, 1, 0.3, -100.0)
-    yield loop_of(rng, "hill_climb", 5, 15, 0.3, -100.0)
-
-
-@same(climber, 1, seeded, view=noise_in_common)
-def seed_decides_the_climb(rng):
-    yield "hill_climb", rng.normal(size=5), seed_of(rng)
+CLIMB = "hill_climb"
+followed = (5, 15, 0.3, -100.0), (200, 60, 0.1, 0.0), (250, 60, 0.02, 0.0)
+reported = (5, 1, 0.3, -100.0), (5, 15, 0.3, -100.0)
+same(climber, 5, evolved, 0.05, view=lineage, name="never_steps_down")(runs, CLIMB, *followed)
+same(climber, 2, evolved, 1e-6, view=report, name="reports_like_evolve")(runs, CLIMB, *reported)
+same(climber, 1, seeded, view=noise_in_common, name="seed_decides_the_climb")(start, CLIMB, 5)
 
 
 replications = exercise.task("3.6", "Replications")
@@ -376,31 +339,24 @@ def replicated(module, histories, seeds):
     return found | {"the list of seeds, afterwards,": seeds} | result
 
 
-def curves(rng, n, least=0.0):
+def curves(rng, n, least):
     # multiples of 1/1024: single precision loses nothing where two curves are close together
     histories = np.round(1024 * rng.normal(size=(n, 15))) / 1024 + least
     return histories, [int(seed) for seed in rng.permutation(50)[:n]]
 
 
+def several(rng, *of):
+    for n, least in of:
+        yield curves(rng, n, least)
+
+
 ASKED = ("the seeds of experiment, in rising order,", "the list of seeds, afterwards,")
-
-
-@same(replications, 5, replicated, parts=(*ASKED, "mean", "best"))
-def mean_and_best(rng):
-    yield curves(rng, 6)
-    yield curves(rng, 6, -100)
-
-
-@same(replications, 4, replicated, parts=(*ASKED, "deviation"))
-def deviation(rng):
-    yield curves(rng, 5)
-    yield curves(rng, 5, -100)
-
-
-@same(replications, 1, replicated, parts=("deviation",))
-def a_single_replication(rng):
-    yield curves(rng, 1)
-    yield curves(rng, 2)
+DEVIATION = (*ASKED, "deviation")
+MEANS = (*ASKED, "mean", "best")
+same(replications, 5, replicated, parts=MEANS, name="mean_and_best")(several, (6, 0), (6, -100))
+same(replications, 4, replicated, parts=DEVIATION, name="deviation")(several, (5, 0), (5, -100))
+ONE = "a_single_replication"
+same(replications, 1, replicated, parts=DEVIATION[2:], name=ONE)(several, (1, 0), (2, 0))
 
 
 training = exercise.task("3.7", "CartPole and Pendulum", seconds=90, needs=("3.1", "3.2", "3.4"))
@@ -419,14 +375,13 @@ def expect_trained(student: Student, environment: str, index: int, wanted: float
         if len(means) < 2 or sum(mean >= wanted for mean in means) == 1:
             found.append(train(seed))
             means += robot.means(found[-1:], seed_of(robot.rng), 20).tolist()
-    said = student.said
+    said, (one, other, *_) = student.said, found
     expect(
         sum(mean >= wanted for mean in means) > 1,
         f"{said} should return a controller that reaches {wanted} on average over 20 new episodes, "
         f"for two seeds; its means are {np.round(means, 1).tolist()}, on a robot whose parameters "
         "count with other signs and sizes.",
     )
-    one, other = found[:2]
     likeness = float(one @ other / np.sqrt((one @ one) * (other @ other)))
     expect(likeness < 0.8, f"{said}: another seed gives nearly the same parameters.")
     if environment == "CartPole-v0":

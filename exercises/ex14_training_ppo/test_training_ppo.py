@@ -18,8 +18,7 @@ exercise = Exercise(
     imports=("botschool.rl.training", "tensorboard.backend.event_processing.event_accumulator"),
 )
 close = partial(same, tolerance=1e-6)
-SHORT = {"n_steps": 16, "batch_size": 64, "n_epochs": 2, "normalize": False}
-"""Hyperparameters of trainings that take a fraction of a second."""
+SHORT = {"n_steps": 16, "batch_size": 64, "n_epochs": 2, "normalize": False}  # a short training
 
 
 def with_files(module, name, place, files):

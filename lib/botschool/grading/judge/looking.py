@@ -17,6 +17,8 @@ from botschool.grading.declare.checks import Mismatch, NotDone, Wrong
 from botschool.grading.declare.values import show
 from botschool.grading.run.student import Student
 
+MANY = 5
+"""Answers to equal calls: those of a program that draws at random may be equal, too."""
 MAX_SECONDS = 0.5
 """Largest processor time, in seconds, of a check whose call is repeated."""
 Check = Callable[[Student], None]
@@ -74,20 +76,23 @@ def _of_another(text: str, direct: dict[str, Any]) -> bool:
 
 
 def looked_at_again(failure: Failure, student: Student, ours: Callable[[], Student]) -> str:
-    """Return lines on what two more calls with the same arguments show; "" if nothing.
+    """Return lines on what more calls with the same arguments show; "" if nothing.
 
     student: the submission in a new child; its time does not count. ours: makes a Student of our
     solution; a call whose answers differ there, too, shows nothing.
     """
+    answers = [failure.got]
     try:
-        found = student.twice(failure.request)
+        while len(answers) < MANY and all(same(each, answers[0]) for each in answers):
+            found = student.twice(failure.request)
+            if found is None:
+                return ""
+            answers += found["answers"]
     except Exception:  # a fault of the machine: it will appear again, or does not matter here
-        found = None
-    if found is None:
         return ""
-    first, second = found["answers"]
     text = ""
-    if not same(first, second) and _steady(failure.request, ours):
+    unsteady = not all(same(each, answers[0]) for each in answers)
+    if unsteady and _steady(failure.request, ours):
         text += (
             "\n  Called again in the same way, the code gives another answer: by chance, or "
             "because something stays from call to call (a variable, an object, a file)."
