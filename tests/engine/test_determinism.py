@@ -29,6 +29,8 @@ from tiny_envs import DIE_ONCE
 
 NATIVE = ("CartPole-v1", "Pendulum-v1", "Acrobot-v1", "ErDpole", "ErDiscrim", "ErPredprey")
 TINY = "tiny_envs:Tiny-v0"
+EVERY = pytest.mark.parametrize("step", [4, pytest.param(1, marks=pytest.mark.long)])
+"""Each fourth moment, or all of them."""
 NORMALISED = {"normalize": 1, "clip": 1, "bias": 1, "action_noise": 1}
 posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")
 
@@ -126,13 +128,14 @@ def test_going_on_with_a_longer_run_does_not_show(algo, tmp_path):
     assert same(tmp_path / "whole", tmp_path / "parts")
 
 
+@EVERY
 @pytest.mark.parametrize("algo", ALGORITHMS)
-def test_a_request_to_stop_at_any_moment_does_not_show(algo, tmp_path):
+def test_a_request_to_stop_at_any_moment_does_not_show(algo, step, tmp_path):
     """Before each episode, in evaluations and in post-evaluations."""
     own = small(tmp_path, TINY, algo, maxmsteps=0.001)
     assert run_seeds(own, tmp_path / "whole")
     # what is collected in the first generation makes the second one differ if it is lost
-    for moment in range(1, 45, 2):
+    for moment in range(1, 45, 2 * step):
         asked = 0
 
         def stopping(moment=moment):
@@ -154,12 +157,13 @@ class Killed(BaseException):
     """Stands for a kill: nothing handles it."""
 
 
+@EVERY
 @pytest.mark.parametrize("algo", ALGORITHMS)
-def test_a_kill_at_any_file_operation_does_not_show(algo, tmp_path, monkeypatch):
+def test_a_kill_at_any_file_operation_does_not_show(algo, step, tmp_path, monkeypatch):
     own = small(tmp_path, "CartPole-v1", algo, maxmsteps=0.001, saveeach=0)
     assert run_seeds(own, tmp_path / "whole")
     operations = {name: getattr(os, name) for name in ("replace", "fsync", "unlink")}
-    for deadly in range(40):
+    for deadly in range(ALGORITHMS.index(algo), 40, step):
         done = 0
 
         def patched(name):
@@ -190,13 +194,14 @@ def steps_done(folder):
 
 
 @posix
+@EVERY
 @pytest.mark.parametrize("algo", ALGORITHMS)
-def test_twenty_kills_do_not_show(algo, tmp_path):
-    """Ten of each algorithm, by kill -9, at random moments of the real command."""
+def test_many_kills_do_not_show(algo, step, tmp_path):
+    """A few, or ten of each algorithm, by kill -9, at random moments of the real command."""
     chance = random.Random(algo)
     own = experiment(tmp_path, "CartPole-v1", algo, NORMALISED, maxmsteps=1000, saveeach=0)
     command = command_of(tmp_path / "own.ini", tmp_path / "killed")
-    for _ in range(10):
+    for _ in range(0, 10, step):
         process = start(*command)
         for _ in range(chance.randint(0, 5)):
             process.stdout.readline()

@@ -13,6 +13,7 @@ from botschool.grading.judge import causes
 from botschool.grading.judge import known as replay
 from botschool.grading.judge.alike import distance, fits, weight
 from botschool.grading.judge.known import TOLD, line_about
+from botschool.grading.judge.likeness import likest
 from botschool.grading.judge.smallest import _smaller, difference, smallest_case
 from botschool.grading.packed import pack
 from botschool.grading.run.student import Student
@@ -191,6 +192,23 @@ def test_mistakes_are_tried_on_a_call_that_takes_little_time():
     assert replay._telling(calls[::2]).request == long
 
 
+def test_mistakes_that_are_like_the_submission_are_tried_first():
+    """Those that add the same words, or take the same away."""
+    solution = "def f(x):\n    return np.sort(x)[::-1].copy()\n"
+    made = [
+        ("squares", solution.replace("np.sort(x)", "np.sort(x) ** 2")),
+        ("rises", solution.replace("[::-1]", "")),
+        ("by hand", solution.replace("np.sort(x)[::-1].copy()", "sorted(x, key=abs)")),
+    ]
+    for text, first in (
+        ("def f(numbers):\n    return np.sort(numbers).copy()\n", "rises"),
+        ("def f(x):\n    y = np.sort(x) ** 2\n    return y[::-1].copy()\n", "squares"),
+        ("def f(x):\n    return np.array(sorted(x, key=abs))\n", "by hand"),
+        (solution, "squares"),
+    ):
+        assert likest(made, solution, text)[0][0] == first
+
+
 def test_right_answers_start_no_trial(messages, monkeypatch):
     monkeypatch.setattr(causes, "calls_of", None)
     right = RIGHT + BY_N.replace("len(x)", "(len(x) - 1)")
@@ -203,6 +221,7 @@ def test_right_answers_start_no_trial(messages, monkeypatch):
 def test_time_is_limited(messages, monkeypatch, when, told):
     """A mistake that never ends costs little; after a first answer that fits, all the time."""
     monkeypatch.setattr(replay, "SECONDS", 0.5)
+    monkeypatch.setattr(replay, "likest", lambda made, *_: [*made])
     endless = (
         "\n\n%% endless loses 3.1\nIt never ends.\ndef spread(values):\n"
         f"    while {when}: pass\n    return float(np.std(values))\n"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,8 @@ class Call:
     seconds: float = 0.0
     """Processor seconds that our solution took."""
     got: Any = None
+    took: float = 0.0
+    """Processor seconds that the submission took."""
     equal: Callable[[Any, Any], bool] | None = None
     """Whether two answers are the same to the grader, if it looks at parts of them only."""
 
@@ -35,8 +38,9 @@ class Call:
     loose: int = STRICT
     """Whether another mistake may have changed this answer, too: one of STRICT, LOOSE, LOOSEST."""
 
-    @property
+    @cached_property
     def wrong(self) -> bool:
+        """Whether the submission's answer, which must be known, differs from ours."""
         return self._is_wrong(self.got)
 
     def _is_wrong(self, answer: Any) -> bool:

@@ -27,6 +27,7 @@ from botschool.grading.declare.mistakes import Case, Known
 from botschool.grading.judge.alike import SINGLE, counts, distance, equal
 from botschool.grading.judge.calls import LOOSE, LOOSEST, STRICT, Call, Check, raised
 from botschool.grading.judge.evidence import may_be_true, words_of
+from botschool.grading.judge.likeness import likest
 from botschool.grading.judge.looking import TookTooLong, processor_time_limit
 from botschool.grading.judge.sentences import Variation
 from botschool.grading.judge.variations import variations
@@ -41,9 +42,9 @@ SECONDS = 3.0
 SLIP_SECONDS = 0.1
 """Processor seconds for one answer with a slip in our solution, which may loop without end."""
 CASE_SECONDS = 0.25
-"""Processor seconds for the first answer of a known mistake."""
-BATCH = 16
-"""Slips that are tried in one request."""
+"""Processor seconds for the first answer of a known mistake, unless the submission took longer."""
+BATCH, FEW = 16, 4
+"""Slips that are tried in one request, and known mistakes, the likest ones first."""
 MOST = 100
 """Mistakes of a task to try."""
 INPUTS, COUNTS = 2, 4
@@ -75,12 +76,18 @@ def named(
     if not known.solution or not levels:
         return ""
     made = [(each.what, _changed(each, known.solution)) for each in known.of(task.id)[:MOST]]
+    made = likest((pair for pair in made if pair[1]), known.solution, text)
     quick = [pair for pair in made if _imports_little(pair[1], known.solution)]
     rest = [pair for pair in made if pair not in quick]
     found, at = "", None
     with suppress(BotschoolError, Wrong):  # no time is left
-        near = [*_fitting(ours, quick, [*levels.values()][-1])]
-        for level, some in levels.items():
+        near: list[tuple[str, str]] = []
+        easiest = next(iter(levels.values()))
+        for pair in _fitting(ours, quick, [*levels.values()][-1]):
+            if told := _mistake(ours, [pair], easiest):
+                return told
+            near.append(pair)
+        for level, some in [*levels.items()][1:]:
             if found := _mistake(ours, near, some):
                 at = level
                 break
@@ -133,8 +140,10 @@ def calls_of(ours: Student, checks: Iterable[Check]) -> list[Call]:
 
 def answered_by(submission: Student, call: Call) -> bool:
     """Store the submission's answer to a call; return False if that function is not done yet."""
+    before = submission.seconds_left
     try:
         call.got = submission.ask(unpack(call.request))
+        call.took = before - submission.seconds_left
     except Wrong:
         if not submission.raised:
             raise
@@ -163,9 +172,10 @@ def _fitting(
     ours: Student, made: list[tuple[str, str]], calls: list[Call]
 ) -> Iterator[tuple[str, str]]:
     """Yield (sentence, text) of mistakes that fit one wrong answer, for half of the time."""
-    for batch in _batches(ours, [pair for pair in made if pair[1]], SECONDS / 2):
-        texts = [text for _, text in batch]
-        near = _near(ours, texts, _telling(calls), CASE_SECONDS, "known mistakes")
+    telling = _telling(calls)
+    limit = max(CASE_SECONDS, 2 * telling.took)
+    for batch in _batches(ours, made, SECONDS / 2, FEW):
+        near = _near(ours, [text for _, text in batch], telling, limit, "known mistakes")
         yield from (pair for pair, fits_one in zip(batch, near, strict=True) if fits_one)
 
 
@@ -181,7 +191,7 @@ def _telling(calls: list[Call]) -> Call:
             not c.wrong,
             c.equal is None and distance(c.got, c.ours) <= SINGLE,  # perhaps by rounding
             raised(c.got),
-            c.seconds > CASE_SECONDS / 2,
+            max(c.seconds, c.took) > CASE_SECONDS / 2,
             len(c.request),
         ),
     )
@@ -195,8 +205,6 @@ def _near(ours: Student, texts: list[str], call: Call, seconds: float, said: str
 
 def _explains(ours: Student, text: str, calls: list[Call]) -> bool:
     """Return whether a wrong solution answers as the submission does, in an empty folder."""
-    if not text:
-        return False
     made: list[Any] = []
     folder = f"try-{next(_NUMBERS)}"
     for part in (calls[:1], calls[1:]):
@@ -251,10 +259,12 @@ def _few(wrong: list[Call]) -> bool:
     return not told or (all(counts(call.got) for call in told) and len(wrong) < COUNTS)
 
 
-def _batches(ours: Student, each: Iterable[T], seconds: float) -> Iterator[list[T]]:
+def _batches(
+    ours: Student, each: Iterable[T], seconds: float, many: int = BATCH
+) -> Iterator[list[T]]:
     """Yield a few at a time until they end, or until so many seconds of our child have passed."""
     waiting, end = iter(each), ours.seconds_left - seconds
-    while ours.seconds_left > end and (batch := list(islice(waiting, BATCH))):
+    while ours.seconds_left > end and (batch := list(islice(waiting, many))):
         yield batch
 
 

@@ -16,6 +16,7 @@ from botschool.grading.declare.exercise import Check, Exercise, Task, cannot_be_
 from botschool.grading.declare.picture import Picture
 from botschool.grading.declare.same import Same
 from botschool.grading.judge.submission import Submission, opened
+from botschool.grading.report.calls import Call, calls_of
 from botschool.grading.report.drawing import Panel, draw, numbers, panels_of
 from botschool.grading.run.confined import fork_server
 from botschool.grading.run.failures import NotDone
@@ -48,19 +49,6 @@ class Drawn:
         return place
 
 
-@dataclass
-class _Call:
-    """A call, with both answers."""
-
-    check: Same
-    arguments: tuple
-    wanted: Any
-    got: Any = None
-    message: str = ""
-    """Why the submission gives no answer that can be compared."""
-    right: bool = False
-
-
 def checkpoints(exercise: Exercise, tasks: list[Task], file: Path) -> Iterator[Drawn]:
     """Yield what can be drawn of each task that has a picture.
 
@@ -77,7 +65,7 @@ def _drawn(task: Task, picture: Picture, submission: Submission) -> Drawn:
         with closing(submission.begun(task)) as student:
             checks = [check for _, _, check in task.checks]
             same = [check for check in checks if isinstance(check, Same)]
-            calls = [call for check in same for call in _calls(check, student)]
+            calls = [call for check in same for call in calls_of(check, student, _inputs(check))]
             wrong = [call for call in calls if not call.right]
             failed = student.changed or ("" if wrong else _failed(checks, student))
             right = not wrong and not failed
@@ -88,7 +76,7 @@ def _drawn(task: Task, picture: Picture, submission: Submission) -> Drawn:
                 what, *given = call(task.exercise.grader) if callable(call) else call
                 own = Same(task, what, lambda rng: [tuple(given)], 1e-9, (), None, {})
                 own.__name__ = ""
-                panels = _panels(next(_calls(own, student)), picture, right)
+                panels = _panels(next(calls_of(own, student, own.inputs())), picture, right)
             elif not wrong:
                 panels = _of_checks(calls, picture, right)
             for how in (picture, Picture(picture.says)):
@@ -103,22 +91,9 @@ def _drawn(task: Task, picture: Picture, submission: Submission) -> Drawn:
         return Drawn(task, WRONG, str(error))
 
 
-def _calls(check: Same, student: Student) -> Iterator[_Call]:
-    """Yield the calls of a check, the largest input last. Raises NotDone."""
-    for arguments in [*(each for _, each in check.more()), *check.inputs()]:
-        ours = check.task.exercise.ours.answer(check.what, arguments)
-        if ours.raised:
-            continue
-        call = _Call(check, arguments, ours.value)
-        try:
-            call.got = check.ask(student, arguments, ours.seconds)
-            check.seen(student.said, call.got, arguments)
-            call.right = check.equal(arguments, call.got, ours.value)
-        except NotDone:
-            raise
-        except Wrong as error:
-            call.message = str(error)
-        yield call
+def _inputs(check: Same) -> list[tuple]:
+    """Return a check's inputs, the largest one last."""
+    return [*(each for _, each in check.more()), *check.inputs()]
 
 
 def _failed(checks: list[Check], student: Student) -> str:
@@ -134,15 +109,15 @@ def _failed(checks: list[Check], student: Student) -> str:
     return ""
 
 
-def _of_checks(calls: list[_Call], picture: Picture, right: bool) -> list[Panel]:
+def _of_checks(calls: list[Call], picture: Picture, right: bool) -> list[Panel]:
     """Return panels of the largest call of each check; of right ones, of each function once."""
-    groups: dict[Any, list[_Call]] = {}
+    groups: dict[Any, list[Call]] = {}
     for call in calls:
         groups.setdefault(call.check.what if right else call.check, []).append(call)
     return [panel for group in groups.values() for panel in _of_one(group, picture, right)]
 
 
-def _of_one(group: list[_Call], picture: Picture, right: bool) -> list[Panel]:
+def _of_one(group: list[Call], picture: Picture, right: bool) -> list[Panel]:
     pairs = [(_one(call.got, call), _one(call.wanted, call)) for call in group]
     single = [(a, b) for a, b in pairs if a is not None and b is not None and a.ndim == b.ndim == 0]
     if len(single) > 1 and len(single) == len(pairs) and not picture.of:
@@ -151,13 +126,13 @@ def _of_one(group: list[_Call], picture: Picture, right: bool) -> list[Panel]:
     return next(filter(None, (_panels(call, picture, right) for call in reversed(group))), [])
 
 
-def _one(answer: Any, call: _Call) -> np.ndarray | None:
+def _one(answer: Any, call: Call) -> np.ndarray | None:
     """Return an answer, or its part if the check compares only one, as an array."""
     parts = call.check.parts
     return numbers(answer.get(parts[0]) if isinstance(answer, dict) and len(parts) == 1 else answer)
 
 
-def _panels(call: _Call, picture: Picture, right: bool) -> list[Panel]:
+def _panels(call: Call, picture: Picture, right: bool) -> list[Panel]:
     """Return the panels of a call; of a wrong one, those that differ."""
     try:
         wanted = _shown(call.wanted, call, picture)
@@ -177,12 +152,12 @@ def _shows(panels: list[Panel]) -> bool:
     return any(panel.apart for panel in panels)
 
 
-def _shown(answer: Any, call: _Call, picture: Picture) -> Any:
+def _shown(answer: Any, call: Call, picture: Picture) -> Any:
     if picture.of is not None:
         return picture.of(answer, *call.arguments)
     return answer if call.check.view is None else call.check.view(answer, *call.arguments)
 
 
-def _name(call: _Call) -> str:
+def _name(call: Call) -> str:
     what = call.check.what
     return what if isinstance(what, str) else call.check.__name__.replace("_", " ")

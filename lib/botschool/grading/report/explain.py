@@ -12,11 +12,12 @@ from rich.console import Console
 from rich.markup import escape
 
 from botschool.errors import BotschoolError
-from botschool.grading.declare.checks import Wrong, plain
+from botschool.grading.declare.checks import NotDone, Wrong, plain
 from botschool.grading.declare.exercise import Exercise, Task
 from botschool.grading.declare.same import Same
 from botschool.grading.declare.values import kind, show
 from botschool.grading.judge.submission import opened
+from botschool.grading.report.calls import calls_of
 from botschool.grading.run.confined import fork_server
 from botschool.grading.run.debug import DirectStudent
 from botschool.grading.run.ours import ours_of
@@ -43,30 +44,25 @@ def explain(exercise: Exercise, task: Task, file: Path, console: Console) -> Non
     ):
         for check in checks:
             console.print(f"[bold]{check.__name__.replace('_', ' ')}[/]")
-            _calls(check, student, console)
+            try:
+                _print(check, student, console)
+            except NotDone as error:
+                console.print(f" [red]✗[/] {escape(plain(str(error)))}", soft_wrap=True)
 
 
-def _calls(check: Same, student: Student, console: Console) -> None:
+def _print(check: Same, student: Student, console: Console) -> None:
+    """Print a check's calls. Raises NotDone."""
     wrong = 0
-    for arguments in [*check.inputs(), *(each for _, each in check.more())]:
-        ours = check.task.exercise.ours.answer(check.what, arguments)
-        if ours.raised:
-            continue
-        try:
-            got = check.ask(student, arguments, ours.seconds)
-            wanted = check.seen("", ours.value, arguments)
-            seen = check.seen(student.said, got, arguments)
-            problem = "" if check.equal(arguments, got, ours.value) else "wrong"
-        except Wrong as error:
-            problem, got = str(error), None
-        wrong += bool(problem)
-        mark = "[red]✗[/]" if problem else "[green]✓[/]"
-        console.print(f" {mark} {escape(plain(student.said))}", soft_wrap=True)
-        if problem and got is None:
-            console.print(f"     {escape(plain(problem))}", soft_wrap=True)
-        elif problem and wrong <= MOST:
-            for word, value in (("returned", seen), ("expected", wanted)):
-                console.print(f"     {word}  {escape(plain(_whole(value)))}", soft_wrap=True)
+    for call in calls_of(check, student, [*check.inputs(), *(each for _, each in check.more())]):
+        wrong += not call.right
+        mark = "[green]✓[/]" if call.right else "[red]✗[/]"
+        console.print(f" {mark} {escape(plain(call.said))}", soft_wrap=True)
+        if call.message:
+            console.print(f"     {escape(plain(call.message))}", soft_wrap=True)
+        elif not call.right and wrong <= MOST:
+            for word, answer in (("returned", call.got), ("expected", call.wanted)):
+                shown = _whole(check.seen(call.said, answer, call.arguments))
+                console.print(f"     {word}  {escape(plain(shown))}", soft_wrap=True)
 
 
 def _whole(value: Any) -> str:

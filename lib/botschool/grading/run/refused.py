@@ -22,8 +22,6 @@ from pathlib import Path
 
 from botschool.sandbox.paths import IMPORT_ROOT
 
-OPERATORS = "torch.ops.aten"
-
 
 def hidden_modules(refused: Iterable[str]) -> list[str]:
     """Return the modules and packages that are refused as a whole."""
