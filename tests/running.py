@@ -1,19 +1,27 @@
 """Helpers for tests of whole runs: experiment files, the command, and the files of a run."""
 
+import atexit
+import multiprocessing
 import os
 import re
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import numpy as np
 
-from botschool import config
+from botschool import cli, config
 from botschool.evolution.replicate import replicate
 from botschool.evolution.run import Options
 
 SENTENCE = re.compile(r"error: \S[^\n]*[.?]\n")
 TESTS = Path(__file__).parent
+FORKS = multiprocessing.get_context("forkserver") if sys.platform == "linux" else None
+if FORKS is not None:
+    FORKS.set_forkserver_preload(
+        ["botschool.cli.app", "botschool.grading.commands", "botschool.evolution.run"]
+    )
 ALGORITHMS = ("SSS", "OpenAI-ES")
 POPULATION = {
     "SSS": {"popsize": 6, "mutrate": 0.2},
@@ -101,9 +109,40 @@ def finish(process, timeout=120):
     return process.returncode, out, errors
 
 
-def call(*arguments, **options):
-    """Run the command; return (exit code, standard output, standard error)."""
-    return finish(start(*arguments, **options))
+def call(*arguments, cwd=None, env=None):
+    """Run the command; return (exit code, standard output, standard error).
+
+    The process is a fork of one that has imported the command, which takes a second each time.
+    """
+    if FORKS is None:
+        return finish(start(*arguments, cwd=cwd, env=env or environment_of_command()))
+    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as errors:
+        places = [f"/proc/{os.getpid()}/fd/{each.fileno()}" for each in (out, errors)]
+        given = [*map(str, arguments)], cwd or os.getcwd(), env or environment_of_command(), places
+        process = FORKS.Process(target=_command, args=given)
+        process.start()
+        process.join(120)
+        if process.exitcode is None:
+            process.kill()
+            raise TimeoutError(f"botschool {' '.join(given[0])} has not ended")
+        texts = [Path(place).read_text(encoding="utf-8") for place in places]
+        return process.exitcode, *texts
+
+
+def _command(arguments, folder, variables, places):
+    """Run the command in this process, which is new."""
+    os.environ.clear()
+    os.environ.update(variables)
+    sys.path[:0] = variables["PYTHONPATH"].split(os.pathsep)
+    os.chdir(folder)
+    for number, place in enumerate(places, start=1):
+        os.dup2(os.open(place, os.O_WRONLY | os.O_APPEND), number)
+    sys.stdout, sys.stderr = (os.fdopen(number, "w", encoding="utf-8") for number in (1, 2))
+    sys.argv = ["botschool", *arguments]
+    try:
+        cli.main()
+    finally:
+        atexit._run_exitfuncs()
 
 
 def one_sentence(code, errors, says=()):

@@ -35,6 +35,8 @@ SLOW = 0.2
 """Processor seconds of our answer to a call that is not repeated."""
 MOST_WORDS = 80
 """Words of a message; of a longer one, the small call is not shown."""
+MORE = ("draw", "changes", "square", "one")
+"""The inputs, made from those of a check, whose answers a cause must give, too."""
 MOSTLY = 0.8
 """Share of the wrong answers that suggest the same cause."""
 _DIGITS = re.compile(r"[-+]?\d[\d.e+-]*")
@@ -81,7 +83,7 @@ class Explanation:
             if not isinstance(check, Same):
                 found += [replace(e, check=check) for e in calls_of(self.ours.student, [check])]
                 continue
-            drawn = [each for name, each in check.more() if name in ("draw", "changes")]
+            drawn = [each for name, each in check.more() if name in MORE]
             for arguments in [*check.inputs(), *drawn]:
                 answer = self.ours.answer(check.what, arguments)
                 if not answer.raised and answer.seconds < SLOW:
