@@ -44,6 +44,7 @@ def test_acrobot_has_the_same_files_on_a_cluster(tmp_path):
     assert re.search(r"^time of the workers: evaluation \d+ %", out, re.M)
 
 
+@pytest.mark.long
 def test_predators_and_prey_have_the_same_files_on_a_cluster(tmp_path):
     path = write_experiment(
         *(tmp_path, "ErPredprey", "coevo2"),

@@ -42,7 +42,7 @@ def grade():
 
     Tasks that are not asked for count as passed, where others build on them.
     """
-    with contextlib.ExitStack() as stack, pytest.MonkeyPatch.context() as patch:
+    with contextlib.ExitStack() as stack:
         servers, ours = {}, {}
 
         def kept(exercise, server):
@@ -59,14 +59,16 @@ def grade():
                 stack.pop_all().close()
                 servers[exercise.imports] = stack.enter_context(fork_server(exercise.imports))
             tasks = exercise.tasks if tasks is None else tasks
-            with submission.opened(exercise, file, servers[exercise.imports]) as one:
-                for task in exercise.tasks:
-                    if task not in tasks:
-                        points = task.max_points
-                        passed = TaskResult(task.id, task.title, points, points, "")
-                        one._results[task.id] = passed
-                results = [one.grade(task).complete() for task in tasks]
+            opened = submission.opened(exercise, file, servers[exercise.imports])
+            with pytest.MonkeyPatch.context() as patch:
+                patch.setattr(submission, "ours_of", kept)
+                with opened as one:
+                    for task in exercise.tasks:
+                        if task not in tasks:
+                            points = task.max_points
+                            passed = TaskResult(task.id, task.title, points, points, "")
+                            one._results[task.id] = passed
+                    results = [one.grade(task).complete() for task in tasks]
             return submission.Result(exercise.number, exercise.title, results, one.banner)
 
-        patch.setattr(submission, "ours_of", kept)
         yield call

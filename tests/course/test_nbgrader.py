@@ -268,6 +268,7 @@ def test_grade_cell_says_what_is_missing(tmp_path, monkeypatch, capsys):
 
 
 # ------------------------------------------------------------------- nbgrader
+@pytest.mark.course
 def test_a_hostile_notebook_gets_the_points_of_its_other_tasks(course, script_points):
     course.nbgrader("generate_assignment", "ex03", "--force")
     released = course.notebook("release", 3)

@@ -16,7 +16,7 @@ from botschool.grading.declare.exercise import missing_packages
 from botschool.grading.judge.variations import variations
 from direct import SECONDS, DirectOurs, problem
 
-SAMPLE = 12
+SAMPLE = 6
 """Slips of an exercise in the sample."""
 
 

@@ -364,6 +364,7 @@ def test_an_episode_of_pong_does_not_depend_on_those_before(pong):
     pong.close()
 
 
+@pytest.mark.long
 def test_pong_evolves(tmp_path, command):
     pytest.importorskip("ale_py")
     pytest.importorskip("cv2")

@@ -215,6 +215,7 @@ def test_each_side_is_ranked_by_its_own_returns(tmp_path):
             assert abs(cat + mouse - 1) > 1e-9
 
 
+@pytest.mark.long
 def test_mice_and_cats_get_better(tmp_path):
     """Later cats against the mice of the beginning, and later mice against the first cats."""
     own = write(tmp_path, algo="archive", policy={"episodes": 2, "nhiddens": 0})

@@ -14,14 +14,15 @@ from botschool.evolution.run import Run
 from botschool.problems.base import Interrupted
 from running import (
     TESTS,
-    call,
     contents,
     environment_of_command,
     experiment,
+    finish,
     finished_run,
     one_sentence,
     run_seeds,
     same,
+    start,
     write_experiment,
 )
 from tiny_envs import FAULTY_SEED
@@ -317,9 +318,8 @@ def test_a_module_in_the_present_folder_is_named(tmp_path):
     for module, place in (("own_envs", "own_envs.py"), ("own_package.envs", "own_package"),
                           ("tiny_envs", None)):  # fmt: skip
         ini = write_experiment(tmp_path / module, f"{module}:Tiny-v0")
-        code, _, errors = call(
-            "es", "-f", ini, "-o", tmp_path / module, "-w", "2", cwd=tmp_path, env=environment
-        )
+        arguments = "es", "-f", ini, "-o", tmp_path / module, "-w", "2"
+        code, _, errors = finish(start(*arguments, cwd=tmp_path, env=environment))
         said = [line for line in errors.splitlines() if "present folder" in line]
         assert code == 0
         assert [line.partition(":")[0] for line in said] == (

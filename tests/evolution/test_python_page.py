@@ -40,6 +40,7 @@ def test_a_library_finds_better_robots_by_its_example(name):
     assert max(top[5:]) > max(top[:2])
 
 
+@pytest.mark.long
 def test_the_page_runs_as_a_notebook(tmp_path, monkeypatch):
     jupytext, nbclient = pytest.importorskip("jupytext"), pytest.importorskip("nbclient")
     pytest.importorskip("ipykernel")

@@ -26,7 +26,8 @@ def nothing_was_said():
 @pytest.mark.parametrize(
     "name",
     [
-        *("BipedalWalker-v3", "odd_envs:DrawsGlobally-v0", "odd_envs:DrawsAtImport-v0"),
+        pytest.param("BipedalWalker-v3", marks=pytest.mark.long),
+        *("odd_envs:DrawsGlobally-v0", "odd_envs:DrawsAtImport-v0"),
         *("odd_envs:DrawsWhenMade-v0", "odd_envs:SeedsOnce-v0", "odd_envs:GetsTired-v0"),
         "odd_envs:GetsHarder-v0",
     ],

@@ -178,6 +178,7 @@ def compiled(tmp_path_factory):
     return scratch
 
 
+@pytest.mark.long
 def test_a_native_problem(compiled):
     out = compiled.command("es", "-f", "slider.ini", "-s", 1, "-o", "run")
     assert "seed 1: best" in out

@@ -50,7 +50,7 @@ def installed(tmp_path_factory):
     return folder
 
 
-@pytest.mark.parametrize("arguments", [(), ("--grade",)])
+@pytest.mark.parametrize("arguments", [(), pytest.param(("--grade",), marks=pytest.mark.long)])
 def test_progress_of_every_skeleton_is_nothing(copy, arguments):
     environment = environment_of_command(BOTSCHOOL_COURSE=str(copy), COLUMNS="80")
     code, out, errors = call("progress", *arguments, env=environment)

@@ -18,7 +18,7 @@ from botschool.rl.parameters import complete
 from botschool.rl.training import train
 from botschool.seeds import POST_EVALUATION_SEED
 from botschool.wrappers import parse
-from running import call, finish, one_sentence, start
+from running import finish, one_sentence, start
 
 pytest.importorskip("stable_baselines3")
 pytestmark = pytest.mark.usefixtures("by_sb3")
@@ -313,11 +313,12 @@ def test_a_full_disk(tmp_path):
     def limited():
         resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
 
-    code, _, errors = call(
+    process = start(
         *("rl", "train", "--algo", "ppo", "--env", "CartPole-v1", "-o", tmp_path, *FLAGS),
         *("--params", "n_steps=32", "batch_size=32", "--engine", "sb3"),
         preexec_fn=limited,
     )
+    code, _, errors = finish(process)
     folder = tmp_path / "ppo" / "CartPole-v1_1"
     one_sentence(code, errors, [folder, "cannot be written", "free some space"])
     assert not list(folder.glob(".*")) and not list(folder.glob("*.zip"))
