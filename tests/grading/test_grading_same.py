@@ -411,6 +411,10 @@ def test_explain_shows_all_calls_with_both_answers(course, capsys):
     assert "✗" not in capsys.readouterr().out
     with pytest.raises(BotschoolError, match="Name a task"):
         explain_command("4", None)
+    undone = ONCE.format("raise NotImplementedError('task 4.1: mix')")
+    (course / "exercises" / "ex04_tiny" / "tiny.py").write_text(SOLUTION + undone)
+    explain_command("4.1", None)
+    assert capsys.readouterr().out.count("not done yet") == 1
 
 
 def test_pytest_collects_tasks_and_checks(course):
