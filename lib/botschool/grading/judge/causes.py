@@ -23,7 +23,7 @@ from botschool.grading.judge.afresh import KEPT, answers_afresh, kept_something
 from botschool.grading.judge.alike import TIE, distance
 from botschool.grading.judge.calls import Call
 from botschool.grading.judge.known import answered_by, calls_of, named
-from botschool.grading.judge.looking import Failure, looked_at_again
+from botschool.grading.judge.looking import IN_PLACE, Failure, looked_at_again
 from botschool.grading.judge.smallest import difference, smallest_case
 from botschool.grading.run.ours import Ours
 from botschool.grading.run.student import Student
@@ -102,8 +102,11 @@ class Explanation:
                 return told
         if self.quiet:
             return ""
+        unsteady = self._not_steady(again)
+        if unsteady and IN_PLACE not in unsteady:
+            return unsteady  # the numbers of such answers mean nothing
         of_first = [call for call in calls if call.check is first]
-        return self._diagnosed(calls) or self._diagnosed(of_first) or self._not_steady(again)
+        return self._diagnosed(calls) or self._diagnosed(of_first) or unsteady
 
     def _diagnosed(self, calls: list[Call]) -> str:
         """Return a sentence that nearly all wrong answers suggest, two at least, or "".
@@ -119,7 +122,7 @@ class Explanation:
                 told.append((diagnose(got, wanted, tuple(given), call.got), name))
         alike = [_DIGITS.sub("", said) for said, _ in told]
         often = max(filter(None, alike), key=alike.count, default="")
-        if alike.count(often) < max(2, MOSTLY * len(alike)):
+        if not often or alike.count(often) < max(2, MOSTLY * len(alike)):
             return ""
         chosen = [each for each, text in zip(told, alike, strict=True) if text == often]
         names = {name for _, name in chosen}

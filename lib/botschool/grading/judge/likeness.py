@@ -3,32 +3,36 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterable
 from itertools import pairwise
 
 _TOKEN = re.compile(r"\w+|[^\w\s]+")
+Pairs = Counter[tuple[str, str]]
 
 
 def likest(made: Iterable[tuple[str, str]], solution: str, text: str) -> list[tuple[str, str]]:
     """Return (sentence, text of a wrong solution), the one most like the submission first.
 
-    Pairs of neighbouring words count: those that a mistake adds to our solution and those that it
-    takes away, which the submission may share. Equals stay in order.
+    Pairs of neighbouring words count: of those that a mistake adds to our solution, or takes away,
+    the share that the submission adds or takes away as well. Equals stay in order.
     """
-    lines, theirs = {*solution.splitlines()}, _pairs(text.splitlines())
+    theirs = _changed(solution, text)
 
     def likeness(mistake: tuple[str, str]) -> float:
-        wrong = {*mistake[1].splitlines()}
-        more, fewer = _pairs(wrong - lines), _pairs(lines - wrong)
-        added, missing = more - fewer, fewer - more
-        return sum(
-            len(shared) / len(whole)
-            for whole, shared in ((added, added & theirs), (missing, missing - theirs))
-            if whole
-        )
+        own = _changed(solution, mistake[1])
+        shared = sum((one & other).total() for one, other in zip(own, theirs, strict=True))
+        return shared / (sum(each.total() for each in own) or 1)
 
     return sorted(made, key=likeness, reverse=True)
 
 
-def _pairs(lines: Iterable[str]) -> set[tuple[str, str]]:
-    return {pair for line in lines for pair in pairwise(_TOKEN.findall(line))}
+def _changed(solution: str, text: str) -> tuple[Pairs, Pairs]:
+    """Return the pairs that a text adds to our solution, and those that it lacks."""
+    ours, other = Counter(solution.splitlines()), Counter(text.splitlines())
+    more, fewer = _pairs(other - ours), _pairs(ours - other)
+    return more - fewer, fewer - more
+
+
+def _pairs(lines: Counter[str]) -> Pairs:
+    return Counter(pair for line in lines.elements() for pair in pairwise(_TOKEN.findall(line)))

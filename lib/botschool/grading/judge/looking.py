@@ -17,6 +17,7 @@ from botschool.grading.declare.checks import Mismatch, NotDone, Wrong
 from botschool.grading.declare.values import show
 from botschool.grading.run.student import Student
 
+IN_PLACE = "in place, but the caller still needs it as it was"
 MANY = 5
 """Answers to equal calls: those of a program that draws at random may be equal, too."""
 MAX_SECONDS = 0.5
@@ -103,8 +104,8 @@ def looked_at_again(failure: Failure, student: Student, ours: Callable[[], Stude
         ):
             if isinstance(before, (np.ndarray, list, dict)) and not same(before, after):
                 text += (
-                    f"\n  It changes its argument number {number} in place, but the caller still "
-                    "needs it as it was: work on a copy (.copy())."
+                    f"\n  It changes its argument number {number} {IN_PLACE}: work on a copy "
+                    "(.copy())."
                 )
     return text
 
