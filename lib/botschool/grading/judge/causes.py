@@ -33,6 +33,8 @@ SECONDS = 3.0
 """Processor seconds to find a cause."""
 SLOW = 0.2
 """Processor seconds of our answer to a call that is not repeated."""
+SPENT = 0.5
+"""Processor seconds of the submission's answers to a check's inputs; then no others are made."""
 MOST_WORDS = 80
 """Words of a message; of a longer one, the small call is not shown."""
 MORE = ("draw", "changes", "square", "one")
@@ -78,20 +80,25 @@ class Explanation:
 
     def _calls(self, again: Student) -> list[Call]:
         """Return the task's quick calls with both answers."""
-        found: list[Call] = []
+        found, more = list[Call](), list[Call]()
         for check in self.cheap:
             if not isinstance(check, Same):
                 found += [replace(e, check=check) for e in calls_of(self.ours.student, [check])]
                 continue
+            own = check.inputs()
             drawn = [each for name, each in check.more() if name in MORE]
-            for arguments in [*check.inputs(), *drawn]:
+            for n, arguments in enumerate([*own, *drawn]):
                 answer = self.ours.answer(check.what, arguments)
                 if not answer.raised and answer.seconds < SLOW:
                     call = Call(pack(answer.request), answer.value, answer.seconds, check=check)
                     if check.view is not None:
                         call.equal = partial(check.equal, arguments)
-                    found.append(call)
-        return [call for call in found if answered_by(again, call)]
+                    (found if n < len(own) else more).append(call)
+        kept = [call for call in found if answered_by(again, call)]
+        for call in more:
+            if sum(each.took for each in kept) < SPENT and answered_by(again, call):
+                kept.append(call)
+        return kept
 
     def _cause(self, calls: list[Call], again: Student) -> str:
         """Return a sentence on the cause, or ""."""
