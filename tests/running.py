@@ -112,12 +112,12 @@ def finish(process, timeout=120):
 def call(*arguments, cwd=None, env=None):
     """Run the command; return (exit code, standard output, standard error).
 
-    The process is a fork of one that has imported the command, which takes a second each time.
+    The process is a fork of one that has imported the command: an import takes a second.
     """
     if FORKS is None:
         return finish(start(*arguments, cwd=cwd, env=env or environment_of_command()))
-    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as errors:
-        places = [f"/proc/{os.getpid()}/fd/{each.fileno()}" for each in (out, errors)]
+    with tempfile.TemporaryDirectory() as folder:
+        places = [Path(folder) / name for name in ("out", "errors")]
         given = [*map(str, arguments)], cwd or os.getcwd(), env or environment_of_command(), places
         process = FORKS.Process(target=_command, args=given)
         process.start()
@@ -125,8 +125,7 @@ def call(*arguments, cwd=None, env=None):
         if process.exitcode is None:
             process.kill()
             raise TimeoutError(f"botschool {' '.join(given[0])} has not ended")
-        texts = [Path(place).read_text(encoding="utf-8") for place in places]
-        return process.exitcode, *texts
+        return process.exitcode, *(place.read_text(encoding="utf-8") for place in places)
 
 
 def _command(arguments, folder, variables, places):
@@ -136,7 +135,7 @@ def _command(arguments, folder, variables, places):
     sys.path[:0] = variables["PYTHONPATH"].split(os.pathsep)
     os.chdir(folder)
     for number, place in enumerate(places, start=1):
-        os.dup2(os.open(place, os.O_WRONLY | os.O_APPEND), number)
+        os.dup2(os.open(place, os.O_WRONLY | os.O_CREAT | os.O_APPEND), number)
     sys.stdout, sys.stderr = (os.fdopen(number, "w", encoding="utf-8") for number in (1, 2))
     sys.argv = ["botschool", *arguments]
     try:

@@ -12,6 +12,7 @@ unseen episodes a controller, on robots with secret gains. Margins are those of 
   chosen with 5 and the best 20 again with 20 episodes, -990 to -750.
 """
 
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -50,11 +51,11 @@ def shape_of(answer, *_):
     return list(np.shape(answer))
 
 
-FIRST, ROWS = "initial_population", "has_one_row_per_individual"
-few, many = ((12, 5, 30), (12, 2, 30)), (100, 0, 500)
-same(initial, 3, FIRST, view=shape_of, name=ROWS)(populations, (1, 2, 9), (6, 2, 9), (20, 7, 65))
-same(initial, 5, FIRST, view=parts_of, name="zeros_and_random_weights")(populations, *few)
-same(initial, 4, FIRST, 0.04, view=parts_of, name="weights_are_gaussian")(populations, many)
+SIZES, FEW, MANY = ((1, 2, 9), (6, 2, 9), (20, 7, 65)), ((12, 5, 30), (12, 2, 30)), (100, 0, 500)
+at_first = partial(same, initial, what="initial_population")
+at_first(3, view=shape_of, name="has_one_row_per_individual")(populations, *SIZES)
+at_first(5, view=parts_of, name="zeros_and_random_weights")(populations, *FEW)
+at_first(4, tolerance=0.04, view=parts_of, name="weights_are_gaussian")(populations, MANY)
 
 
 def drawn(module, popsize, seed):
@@ -154,16 +155,17 @@ def changes_of(answer, population, fitness, mutrate, seed):
     return found
 
 
-def drawn_steps(rng, *of):
+def steps_of(rng, *of):
     for popsize, mutrate, scale, many in of:
         population = scale * rng.normal(size=(popsize, many))
         population[:, :ZEROS] = 0
         yield population, rng.permutation(popsize) - 3.5, mutrate, seed_of(rng)
 
 
-HALF = "better_half_stays_and_is_copied"
-chosen = (2, 0.02, 1, 40), (6, 0.02, 1, 40), (10, 0.02, 100, 40), (10, 0.02, 1, 40)
-same(following, 8, steps, view=changes_of, name=HALF)(drawn_steps, *chosen)
+CHOSEN = (2, 0.02, 1, 40), (6, 0.02, 1, 40), (10, 0.02, 100, 40), (10, 0.02, 1, 40)
+same(following, 8, steps, view=changes_of, name="better_half_stays_and_is_copied")(
+    steps_of, *CHOSEN
+)
 
 
 def who_stays(answer, population, fitness, mutrate, seed):
@@ -183,9 +185,8 @@ def equal_fitness(rng):
         yield rng.normal(size=(12, 40)), rng.choice(values, size=12), 0.1, seed_of(rng)
 
 
-wide = (60, 0.02, 1, 600), (60, 0.3, 6, 600), (60, 1.5, 30, 600)
-same(following, 6, steps, 0.05, view=changes_of, name="noise_is_gaussian")(drawn_steps, *wide)
-
+WIDE = (60, 0.02, 1, 600), (60, 0.3, 6, 600), (60, 1.5, 30, 600)
+same(following, 6, steps, 0.05, view=changes_of, name="noise_is_gaussian")(steps_of, *WIDE)
 
 loop = exercise.task("3.4", "The loop", needs=("3.2", "3.3"), refused=TOOL)
 
@@ -267,8 +268,8 @@ def runs(rng, name, *of):
 
 
 LEAST = ((5, -1e5), (5, -3e4), (5, 200.0), (5, 1e4), (12, 0.0), (15, -100.0))  # by generations
-reported = [((10, 8), generations, 0.1, least) for generations, least in ((1, -100.0), *LEAST)]
-same(loop, 12, evolved, 1e-6, view=report, name="evaluates_and_reports")(runs, "evolve", *reported)
+REPORTED = [((10, 8), generations, 0.1, least) for generations, least in ((1, -100.0), *LEAST)]
+same(loop, 12, evolved, 1e-6, view=report, name="evaluates_and_reports")(runs, "evolve", *REPORTED)
 
 
 def seeded(module, name, population, seed):
@@ -307,17 +308,16 @@ def start(rng, name, shape):
     yield name, rng.normal(size=shape), seed_of(rng)
 
 
-two = ((2, 200), 60, 0.02, 0.0), ((2, 250), 60, 0.4, 0.0)
-followed = ((10, 8), 6, 0.1, 0.0), ((6, 12), 20, 0.3, 0.0), *two
+PAIRS = ((2, 200), 60, 0.02, 0.0), ((2, 250), 60, 0.4, 0.0)
+FOLLOWED = ((10, 8), 6, 0.1, 0.0), ((6, 12), 20, 0.3, 0.0), *PAIRS
 same(loop, 4, seeded, view=noise_in_common, name="seed_decides_the_noise")(start, "evolve", (10, 8))
-same(loop, 4, evolved, 0.05, view=lineage, name="selects_and_varies")(runs, "evolve", *followed)
+same(loop, 4, evolved, 0.05, view=lineage, name="selects_and_varies")(runs, "evolve", *FOLLOWED)
 
 climber = exercise.task("3.5", "A hill climber", needs=("3.4",), refused=TOOL)
-CLIMB = "hill_climb"
-followed = (5, 15, 0.3, -100.0), (200, 60, 0.1, 0.0), (250, 60, 0.02, 0.0)
-reported = (5, 1, 0.3, -100.0), (5, 15, 0.3, -100.0)
-same(climber, 5, evolved, 0.05, view=lineage, name="never_steps_down")(runs, CLIMB, *followed)
-same(climber, 2, evolved, 1e-6, view=report, name="reports_like_evolve")(runs, CLIMB, *reported)
+CLIMB, SHORT, LONG = "hill_climb", (5, 1, 0.3, -100.0), (5, 15, 0.3, -100.0)
+CLIMBS = LONG, (200, 60, 0.1, 0.0), (250, 60, 0.02, 0.0)
+same(climber, 5, evolved, 0.05, view=lineage, name="never_steps_down")(runs, CLIMB, *CLIMBS)
+same(climber, 2, evolved, 1e-6, view=report, name="reports_like_evolve")(runs, CLIMB, SHORT, LONG)
 same(climber, 1, seeded, view=noise_in_common, name="seed_decides_the_climb")(start, CLIMB, 5)
 
 

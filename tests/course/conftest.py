@@ -7,7 +7,7 @@ import pytest
 from botschool.grading.judge import submission
 from botschool.grading.judge.judging import TaskResult
 from botschool.grading.run.confined import fork_server
-from botschool.grading.run.ours import Ours
+from botschool.grading.run.ours import ours_of
 
 
 def pytest_addoption(parser):
@@ -26,16 +26,6 @@ def secrets(request):
     return [f"secret {number}" for number in range(1, many + 1)]
 
 
-class Kept(Ours):
-    """Our solution, whose answers stay for the next submission."""
-
-    def close(self):
-        pass
-
-    def end(self):
-        super().close()
-
-
 @pytest.fixture(scope="session")
 def grade():
     """Grades a file as submission.grade does, and keeps the last fork server and our answers.
@@ -47,9 +37,9 @@ def grade():
 
         def kept(exercise, server):
             if exercise.number not in ours:
-                memory = max(task.memory for task in exercise.tasks)
-                ours[exercise.number] = Kept(exercise.known.solution, exercise.file, memory, server)
-                stack.callback(ours[exercise.number].end)
+                own = ours[exercise.number] = ours_of(exercise, server)
+                stack.callback(own.close)
+                own.close = lambda: None  # a submission that ends leaves it to the next one
             return ours[exercise.number]
 
         def call(exercise, file, tasks=None):

@@ -4,8 +4,9 @@ from functools import partial, wraps
 from types import SimpleNamespace
 
 from botschool.grading import Exercise, expect
+from botschool.grading.judge.submission import grade
 from botschool.grading.run.replaced import replaced
-from tiny_course import FILE
+from tiny_course import FILE, submit
 
 
 def power(base, exponent=2, *, scale=1):
@@ -86,3 +87,16 @@ def sizes():
         return len(EXPERIMENT.read_text()) * len(BODY.read_text()), type(error).__name__
 """
     assert messages(text, exercise) == [""]
+
+
+def test_what_the_server_has_imported_is_refused(tmp_path):
+    """Also a module that another one needs."""
+    exercise = Exercise(3, "Halves", FILE, imports=("statistics",))
+
+    @exercise.task("3.1", "A half", refused=("fractions",)).check(100)
+    def halves(student):
+        expect(student.call("half", 3) == 1.5, "not the half")
+
+    text = "import sys\n\ndef half(n): return float(sys.modules['fractions'].Fraction(n, 2))\n"
+    (task,) = grade(exercise, submit(tmp_path, text)).tasks
+    assert "write it yourself: fractions.Fraction.__new__ is not to be used" in task.message

@@ -23,10 +23,10 @@ from botschool.grading.judge.afresh import KEPT, answers_afresh, kept_something
 from botschool.grading.judge.alike import TIE, distance
 from botschool.grading.judge.calls import Call
 from botschool.grading.judge.known import answered_by, calls_of, named
-from botschool.grading.judge.looking import IN_PLACE, Failure, looked_at_again
+from botschool.grading.judge.looking import Failure, looked_at_again
 from botschool.grading.judge.smallest import difference, smallest_case
 from botschool.grading.run.ours import Ours
-from botschool.grading.run.student import Student
+from botschool.grading.run.student import IN_PLACE, Student
 from botschool.sandbox.protocol import pack
 
 SECONDS = 3.0
@@ -85,15 +85,14 @@ class Explanation:
             if not isinstance(check, Same):
                 found += [replace(e, check=check) for e in calls_of(self.ours.student, [check])]
                 continue
-            own = check.inputs()
-            drawn = [each for name, each in check.more() if name in MORE]
-            for n, arguments in enumerate([*own, *drawn]):
+            made = [(more, each) for name, each in check.more() if name in MORE]
+            for calls, arguments in [*((found, each) for each in check.inputs()), *made]:
                 answer = self.ours.answer(check.what, arguments)
                 if not answer.raised and answer.seconds < SLOW:
                     call = Call(pack(answer.request), answer.value, answer.seconds, check=check)
                     if check.view is not None:
                         call.equal = partial(check.equal, arguments)
-                    (found if n < len(own) else more).append(call)
+                    calls.append(call)
         kept = [call for call in found if answered_by(again, call)]
         for call in more:
             if sum(each.took for each in kept) < SPENT and answered_by(again, call):

@@ -82,9 +82,9 @@ def named(
     found, at = "", None
     with suppress(BotschoolError, Wrong):  # no time is left
         near: list[tuple[str, str]] = []
-        easiest = next(iter(levels.values()))
+        strictest = next(iter(levels.values()))
         for pair in _fitting(ours, quick, [*levels.values()][-1]):
-            if told := _mistake(ours, [pair], easiest):
+            if told := _mistake(ours, [pair], strictest):
                 return told
             near.append(pair)
         for level, some in [*levels.items()][1:]:

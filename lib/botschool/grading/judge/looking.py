@@ -15,9 +15,8 @@ import numpy as np
 
 from botschool.grading.declare.checks import Mismatch, NotDone, Wrong
 from botschool.grading.declare.values import show
-from botschool.grading.run.student import Student
+from botschool.grading.run.student import IN_PLACE, Student
 
-IN_PLACE = "in place, but the caller still needs it as it was"
 MANY = 5
 """Answers to equal calls: those of a program that draws at random may be equal, too."""
 MAX_SECONDS = 0.5
@@ -103,10 +102,7 @@ def looked_at_again(failure: Failure, student: Student, ours: Callable[[], Stude
             zip(failure.request["arguments"], found["arguments"], strict=False), 1
         ):
             if isinstance(before, (np.ndarray, list, dict)) and not same(before, after):
-                text += (
-                    f"\n  It changes its argument number {number} {IN_PLACE}: work on a copy "
-                    "(.copy())."
-                )
+                text += f"\n  It changes its argument number {number} {IN_PLACE}"
     return text
 
 

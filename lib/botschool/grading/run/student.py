@@ -27,6 +27,8 @@ from botschool.sandbox import Allowance, Child, ForkServer, Limits
 from botschool.sandbox.protocol import pack
 from botschool.sandbox.usage import is_full
 
+IN_PLACE = "in place, but the caller still needs it as it was: work on a copy (.copy())."
+
 
 class Student:
     """A submission's file, ready to be called.
@@ -261,10 +263,7 @@ class Student:
         self.answer = answer["value"]
         if answer.get("changed") and not self.changed:
             number = answer["changed"][0] if isinstance(answer["changed"], list) else "?"
-            self.changed = (
-                f"{self.said} changed its argument number {number} in place, but the caller still "
-                "needs it as it was: work on a copy (.copy())."
-            )
+            self.changed = f"{self.said} changed its argument number {number} {IN_PLACE}"
         if self.trace is not None:
             self.trace.append((pack(request), pack(self.answer), before - self.seconds_left))
         return self.answer

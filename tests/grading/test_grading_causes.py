@@ -1,0 +1,131 @@
+"""Tests of how a cause is looked for: in which calls, how long, and what is said."""
+
+import numpy as np
+import pytest
+
+from botschool.grading import Exercise, same
+from botschool.grading.judge import afresh, causes
+from botschool.grading.judge import known as replay
+from botschool.grading.judge.known import line_about
+from botschool.grading.judge.looking import Failure, looked_at_again
+from botschool.grading.run.kinds import with_kinds
+from tiny_course import FILE
+
+SOLUTION = '''"""A solution."""
+
+import numpy as np
+
+
+def turned(table):
+    """Rows and columns exchanged, and the largest number."""
+    ### BEGIN SOLUTION task 3.1: turn the table
+    return {"table": table.T, "largest": float(np.max(table))}
+    ### END SOLUTION
+'''
+WRONG = "import numpy as np\n\n\ndef turned(table):\n    {}\n"
+SQUARES_STAY = "square = table.shape[0] == table.shape[1]\n    {}"
+MISTAKE = f"""%% squares_stay loses 3.1
+Leaves square tables as they are.
+def turned(table):
+    {SQUARES_STAY.format("return {'table': table if square else table.T, 'largest': table.max()}")}
+"""
+
+
+def declared(mistakes="", many=2, columns=(7,)):
+    exercise = Exercise(3, "Three", FILE)
+
+    @same(exercise.task("3.1", "Turned", seconds=5), 100, "turned")
+    def turns(rng):
+        for rows in range(2, 2 + many):
+            yield rng.normal(size=(rows, *columns))
+
+    exercise.knows(SOLUTION, mistakes)
+    return exercise
+
+
+def first_line(messages, body, exercise=None):
+    (message,) = messages(WRONG.format(body), exercise or declared())
+    return message.splitlines()[0]
+
+
+def test_a_mistake_that_shows_in_squares_only_is_named(messages):
+    body = SQUARES_STAY.format("d = table if square else table.transpose()\n    ")
+    body += 'return {"table": d, "largest": table.max()}'
+    found = first_line(messages, body, declared(MISTAKE))
+    assert found == line_about("Leaves square tables as they are.")
+
+
+def test_no_cause_is_said_without_words(messages):
+    """Numbers that suggest nothing, in a part that has a name."""
+    body = 'return {"table": np.cos(91 * table.T) ** 3, "largest": table.max()}'
+    assert first_line(messages, body, declared(many=6, columns=())).startswith("turned(")
+
+
+def test_what_stays_is_told_before_what_numbers_suggest(messages):
+    """From the second call on, one is added."""
+    body = "made.append(1)\n    "
+    body += 'return {"table": table.T + (len(made) > 1), "largest": table.max()}\n\n\nmade = []'
+    assert first_line(messages, body, declared(many=6)) == afresh.KEPT
+
+
+class Chosen:
+    """Gives the next of these answers, twice at a time."""
+
+    def __init__(self, *answers):
+        self.answers = [*answers]
+
+    def twice(self, request):
+        return {"answers": [self.answers.pop(0), self.answers.pop(0)], "arguments": []}
+
+    def close(self):
+        pass
+
+
+@pytest.mark.parametrize(("answers", "told"), [((1, 1, 1, 2), True), ((1, 1, 1, 1), False)])
+def test_chance_is_seen_in_one_of_five_answers(answers, told):
+    failure = Failure("", request={"name": "f", "arguments": ()}, got=1)
+    found = looked_at_again(failure, Chosen(*answers), lambda: Chosen(3, 3))
+    assert ("gives another answer: by chance" in found) == told
+
+
+@pytest.mark.parametrize("seconds", [0.0, 100.0])
+def test_a_slow_submission_is_asked_for_the_inputs_only(messages, monkeypatch, seconds):
+    asked = []
+
+    def named(ours, calls, *_):
+        asked.append(len(calls))
+        return "named"
+
+    monkeypatch.setattr(causes, "SPENT", seconds)
+    monkeypatch.setattr(causes, "named", named)
+    first_line(messages, "return {'table': table, 'largest': 0.0}")
+    assert (asked == [2]) == (seconds == 0.0)
+
+
+def test_the_first_mistake_that_explains_all_ends_the_search(messages, monkeypatch):
+    tried, near = [], replay._near
+
+    def counted(ours, texts, *more):
+        tried.extend(texts)
+        return near(ours, texts, *more)
+
+    monkeypatch.setattr(replay, "_near", counted)
+    other = "%% other_{0} loses 3.1\nAdds {0}.\ndef turned(table):\n    return table + {0}\n\n\n"
+    known = "".join(map(other.format, range(20))) + MISTAKE
+    body = SQUARES_STAY.format("return {'table': table if square else table.T, 'largest': 0.0}")
+    found = first_line(messages, body.replace("0.0", "table.max()"), declared(known))
+    assert found == line_about("Leaves square tables as they are.")
+    assert len(tried) <= replay.FEW
+
+
+@pytest.mark.parametrize("held", [1j, np.array([1j])])
+def test_kinds_are_those_of_all_variables(held):
+    """A complex number of Python, and an array."""
+
+    def squared(x):
+        step = held  # noqa: F841 (held in a variable)
+        return x * x
+
+    answer, kinds = with_kinds(squared, 3.0)
+    assert answer == 9.0 and "c" in kinds
+    assert "c" not in with_kinds(lambda x: x * x, np.ones(3))[1]
