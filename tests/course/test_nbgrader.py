@@ -20,7 +20,7 @@ from botschool.errors import BotschoolError
 from botschool.grading.copies.preprocessors import task_of
 from botschool.grading.copies.release import release
 from botschool.grading.copies.skeleton import find_leaks
-from botschool.grading.declare.secret import VARIABLE
+from botschool.grading.declare.state import VARIABLE
 from botschool.grading.nbgrader import make_course
 from botschool.grading.notebook import grade_cell
 from botschool.grading.run.cells import Unreadable, definitions, plain_python, scripts, whole

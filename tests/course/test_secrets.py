@@ -10,7 +10,7 @@ import hashlib
 import pytest
 
 import building
-from botschool.grading.declare.secret import VARIABLE
+from botschool.grading.declare.state import VARIABLE
 
 pytestmark = pytest.mark.course
 

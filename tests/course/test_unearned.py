@@ -6,7 +6,7 @@ Each is handed in with the skeleton, and graded in the tasks that it names.
 import pytest
 
 import building
-from botschool.grading.declare.secret import VARIABLE
+from botschool.grading.declare.state import VARIABLE
 from botschool.grading.judge.judging import grade_task
 from botschool.grading.run.confined import fork_server
 from botschool.grading.run.ours import ours_of

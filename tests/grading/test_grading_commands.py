@@ -27,7 +27,7 @@ from botschool.grading.copies import starting
 from botschool.grading.copies.release import MANIFEST, release
 from botschool.grading.copies.skeleton import find_leaks
 from botschool.grading.declare.exercise import load_exercise
-from botschool.grading.declare.secret import grading_secret
+from botschool.grading.declare.state import grading_secret
 from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import grade
 from botschool.grading.report import showing

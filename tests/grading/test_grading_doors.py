@@ -20,7 +20,8 @@ from botschool.grading.classes import batch
 from botschool.grading.classes.commands import grade_all_command
 from botschool.grading.declare import exercise as extras
 from botschool.grading.declare.checks import Wrong
-from botschool.grading.declare.exercise import load_exercise, secret_for_others
+from botschool.grading.declare.exercise import load_exercise
+from botschool.grading.declare.state import secret_for_others
 from botschool.grading.judge.submission import grade
 from botschool.grading.notebook import grade_cell
 from botschool.grading.run import temporary

@@ -26,11 +26,11 @@ from botschool.grading.declare.exercise import (
     exercise_numbers,
     folder_of,
     load_exercise,
-    secret_for_others,
     selected,
     submission_file,
     submission_place,
 )
+from botschool.grading.declare.state import secret_for_others
 from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import Result, grade
 from botschool.grading.report.progress import digest, remember

@@ -20,7 +20,7 @@ from botschool.grading.classes.collect import Laboratory
 from botschool.grading.classes.export import one_person
 from botschool.grading.classes.files import File, Handed, listed, numbered_folders
 from botschool.grading.declare.exercise import Exercise, Number
-from botschool.grading.declare.secret import DEFAULT, VARIABLE
+from botschool.grading.declare.state import DEFAULT, VARIABLE
 from botschool.labs.check import Check, Checked, Part
 from botschool.labs.declare import NUMBERS, PARTS, WORDS, Lab, load_lab
 from botschool.labs.folder import Place, skeletons

@@ -91,7 +91,8 @@ def check_command(number: str, as_json: bool, submission: Path | None = None) ->
 
 
 def _check_other(number: str, as_json: bool, submission: Path) -> bool:
-    from botschool.grading.declare.exercise import course_root, secret_for_others
+    from botschool.grading.declare.exercise import course_root
+    from botschool.grading.declare.state import secret_for_others
     from botschool.grading.run.confined import close_class
     from botschool.labs.classes import find_sheet, secret_choice
 

@@ -25,16 +25,9 @@ from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
-from botschool.grading.declare.exercise import (
-    STATE,
-    Exercise,
-    Number,
-    folder_of,
-    load_exercise,
-    make_state,
-)
+from botschool.grading.declare.exercise import Exercise, Number, folder_of, load_exercise
 from botschool.grading.declare.mistakes import case_file
-from botschool.grading.declare.secret import DEFAULT, VARIABLE
+from botschool.grading.declare.state import DEFAULT, STATE, VARIABLE, make_state
 from botschool.grading.judge.submission import SYNTAX, Result, TaskResult, grade
 from botschool.grading.run.confined import MachineFault, Unread, content_digest, machine_fault
 from botschool.grading.run.temporary import temporary_folder

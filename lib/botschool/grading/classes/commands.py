@@ -20,7 +20,8 @@ from botschool.grading.classes.rules import Policy
 from botschool.grading.classes.statistics import by_task, hardest
 from botschool.grading.classes.term import TABLE as TERM
 from botschool.grading.classes.term import Term, read_output, say_term, write_term
-from botschool.grading.declare.exercise import Number, course_root, secret_for_others, selected
+from botschool.grading.declare.exercise import Number, course_root, selected
+from botschool.grading.declare.state import secret_for_others
 from botschool.grading.judge.submission import SYNTAX
 from botschool.grading.report.screen import counting, say_missing
 from botschool.grading.run.confined import close_class

@@ -14,8 +14,8 @@ from pathlib import Path
 from botschool.errors import BotschoolError
 from botschool.grading.classes.platforms import PLATFORMS
 from botschool.grading.copies.release import release
-from botschool.grading.declare.exercise import STATE, load_exercise, secret_for_others
-from botschool.grading.declare.secret import FILE
+from botschool.grading.declare.exercise import load_exercise
+from botschool.grading.declare.state import FILE, STATE, secret_for_others
 
 _MODULE = "botschool.grading.classes.platforms"
 _SETUP = """\

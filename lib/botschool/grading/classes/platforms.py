@@ -23,14 +23,8 @@ from typing import Any
 from botschool.errors import BotschoolError
 from botschool.grading.classes.batch import Grades, Job, remarks, to_record
 from botschool.grading.classes.choice import find_in
-from botschool.grading.declare.exercise import (
-    STATE,
-    course_root,
-    load_exercise,
-    secret_for_others,
-    selected,
-)
-from botschool.grading.declare.secret import FILE
+from botschool.grading.declare.exercise import course_root, load_exercise, selected
+from botschool.grading.declare.state import FILE, STATE, secret_for_others
 from botschool.grading.judge.submission import grade
 from botschool.grading.run.confined import MachineFault, close_class
 from botschool.grading.run.temporary import temporary_files_within

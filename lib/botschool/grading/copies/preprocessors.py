@@ -24,7 +24,8 @@ from nbgrader.preprocessors import NbGraderPreprocessor
 
 from botschool.errors import BotschoolError
 from botschool.grading.copies.skeleton import BEGIN, skeleton
-from botschool.grading.declare.exercise import course_root, load_exercise, secret_for_others
+from botschool.grading.declare.exercise import course_root, load_exercise
+from botschool.grading.declare.state import secret_for_others
 from botschool.grading.judge.submission import TaskResult
 from botschool.grading.notebook import graded, marks, report
 

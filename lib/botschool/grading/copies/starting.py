@@ -17,12 +17,8 @@ from urllib.parse import quote
 from botschool.errors import BotschoolError
 from botschool.grading.copies.release import MANIFEST
 from botschool.grading.copies.skeleton import skeleton
-from botschool.grading.declare.exercise import (
-    folder_of,
-    load_exercise,
-    make_state,
-    missing_packages,
-)
+from botschool.grading.declare.exercise import folder_of, load_exercise, missing_packages
+from botschool.grading.declare.state import make_state
 from botschool.output import save_bytes
 from botschool.page.exercise import PAGE, has_page, write_exercise_page
 

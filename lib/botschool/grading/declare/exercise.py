@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import contextlib
 import functools
 import hashlib
 import importlib.util
-import json
 import os
 import re
 import sys
@@ -20,15 +18,10 @@ from botschool.errors import BotschoolError, listed
 from botschool.grading.declare.mistakes import Known, case_text
 from botschool.grading.declare.picture import Picture
 from botschool.grading.declare.references import pruned
-from botschool.grading.declare.secret import DEFAULT, VARIABLE, grading_secret
+from botschool.grading.declare.state import DEFAULT, VARIABLE
 from botschool.grading.declare.trust import check_trusted
 from botschool.paths import course_root, for_make
-from botschool.sandbox.inside import read_inside
 
-STATE = ".botschool"
-"""A folder in the course in which the commands store data."""
-MAX_STORED = 2**20
-"""Bytes of a file in it that is read again."""
 POINTS = 100
 """Points of every exercise."""
 ABSENT = "botschool.grading.run.absent"
@@ -363,33 +356,6 @@ def submission_file(number: int, submission: str | None, root: Path | None = Non
         f"There is no {exercise.file} in {' or '.join(map(str, places))}: "
         f"name another folder with --submission FOLDER{for_make(root)}."
     )
-
-
-def make_state(root: Path) -> Path:
-    """Make and return the folder in which the commands store data. Raises OSError if that fails."""
-    folder = root / STATE
-    if not folder.is_dir():
-        folder.mkdir(exist_ok=True)
-        (folder / ".gitignore").write_text("*\n")
-    if not os.access(folder, os.W_OK):
-        raise PermissionError(f"no permission to write in {folder}")
-    return folder
-
-
-def stored(place: Path) -> dict[str, Any]:
-    """Return the stored data of a command; a missing or damaged file counts as empty."""
-    with contextlib.suppress(OSError, ValueError, RecursionError):
-        found = json.loads(read_inside(place.parent, place.name, MAX_STORED))
-        return found if isinstance(found, dict) else {}
-    return {}
-
-
-def secret_for_others(root: Path) -> tuple[str, str]:
-    """Return the secret to grade other people's work with, and a sentence on where it is kept."""
-    try:
-        return grading_secret(make_state(root))
-    except OSError:
-        return grading_secret(root / STATE)
 
 
 def missing_packages(extras: tuple[str, ...]) -> list[str]:

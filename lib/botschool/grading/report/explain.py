@@ -42,12 +42,12 @@ def explain(exercise: Exercise, task: Task, file: Path, console: Console) -> Non
         opened(exercise, file, server) as submission,
         closing(submission.begun(task)) as student,
     ):
-        for check in checks:
-            console.print(f"[bold]{check.__name__.replace('_', ' ')}[/]")
-            try:
+        try:
+            for check in checks:
+                console.print(f"[bold]{check.__name__.replace('_', ' ')}[/]")
                 _print(check, student, console)
-            except NotDone as error:
-                console.print(f" [red]✗[/] {escape(plain(str(error)))}", soft_wrap=True)
+        except NotDone as error:
+            console.print(f" [red]✗[/] {escape(plain(str(error)))}", soft_wrap=True)
 
 
 def _print(check: Same, student: Student, console: Console) -> None:

@@ -7,7 +7,8 @@ import re
 from pathlib import Path
 
 from botschool.errors import BotschoolError
-from botschool.grading.declare.exercise import folder_of, make_state, stored
+from botschool.grading.declare.exercise import folder_of
+from botschool.grading.declare.state import make_state, stored
 from botschool.lock import alone
 from botschool.output import save_bytes
 

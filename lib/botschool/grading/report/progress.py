@@ -16,15 +16,8 @@ from rich.text import Text
 from botschool.errors import BotschoolError
 from botschool.grading.copies.starting import original
 from botschool.grading.declare.checks import Wrong
-from botschool.grading.declare.exercise import (
-    STATE,
-    Exercise,
-    folder_of,
-    load_exercise,
-    make_state,
-    stored,
-    submission_file,
-)
+from botschool.grading.declare.exercise import Exercise, folder_of, load_exercise, submission_file
+from botschool.grading.declare.state import STATE, make_state, stored
 from botschool.grading.packed import PACKED, unpack_answers
 from botschool.grading.run.confined import content_digest
 from botschool.lock import alone

@@ -1,13 +1,24 @@
-"""Keep the secret behind the grading seeds, so that nobody can record answers beforehand."""
+"""Keep what commands store in a course, and the secret behind the grading seeds there.
+
+Nobody can record answers beforehand whose inputs follow from a secret.
+"""
 
 from __future__ import annotations
 
+import contextlib
+import json
 import os
 import secrets
 from pathlib import Path
+from typing import Any
 
 from botschool.lock import alone
+from botschool.sandbox.inside import read_inside
 
+STATE = ".botschool"
+"""A folder in the course in which the commands store data."""
+MAX_STORED = 2**20
+"""Bytes of a file in it that is read again."""
 VARIABLE = "BOTSCHOOL_GRADING_SEED"
 """Environment variable with the instructor's own secret."""
 DEFAULT = "botschool"
@@ -49,3 +60,30 @@ def _kept_or_made(place: Path) -> tuple[str, str]:
         f"{VARIABLE} is not set: botschool made a secret for the grading seeds and keeps it "
         f"in {place}; do not show it to students."
     )
+
+
+def make_state(root: Path) -> Path:
+    """Make and return the folder in which the commands store data. Raises OSError if that fails."""
+    folder = root / STATE
+    if not folder.is_dir():
+        folder.mkdir(exist_ok=True)
+        (folder / ".gitignore").write_text("*\n")
+    if not os.access(folder, os.W_OK):
+        raise PermissionError(f"no permission to write in {folder}")
+    return folder
+
+
+def stored(place: Path) -> dict[str, Any]:
+    """Return the stored data of a command; a missing or damaged file counts as empty."""
+    with contextlib.suppress(OSError, ValueError, RecursionError):
+        found = json.loads(read_inside(place.parent, place.name, MAX_STORED))
+        return found if isinstance(found, dict) else {}
+    return {}
+
+
+def secret_for_others(root: Path) -> tuple[str, str]:
+    """Return the secret to grade other people's work with, and a sentence on where it is kept."""
+    try:
+        return grading_secret(make_state(root))
+    except OSError:
+        return grading_secret(root / STATE)
