@@ -344,7 +344,8 @@ def master(table):
 def test_the_librarys_answer_is_refused_though_it_is_imported_again(tmp_path, again):
     loaded = building.exercise(15)
     file = building.write(tmp_path, 15, building.inserted(building.source(15).skeleton, again))
-    with fork_server(loaded.imports) as server:
+    with fork_server(loaded.imports) as server, contextlib.closing(ours_of(loaded, server)) as ours:
+        loaded.ours = ours
         result = grade_task(loaded.find("15.3"), file, server)
     assert result.points == 0
     assert "write it yourself: botschool.analysis.tournament.summarised" in result.message
