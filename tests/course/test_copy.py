@@ -190,33 +190,49 @@ def ran(*command, cwd, **variables):
     assert done.returncode == 0, done.stderr
 
 
-@pytest.mark.parametrize("kind", ["skeleton", "solution", "half", "hostile"])
-@pytest.mark.parametrize("number", building.GRADED, ids="ex{:02d}".format)
-def test_points_are_those_of_grade(grade, exported, copy, tmp_path, number, kind):
-    one, folder = building.source(number), exported(number)
-    text = text_of(kind, one)
-    file = building.write(tmp_path, number, text)
-    expected = {task.id: task.points for task in grade(building.exercise(number), file).tasks}
+def by_gradescope(file, number, exported, copy, tmp_path):
+    folder = exported(number)
+    (folder / "submission").mkdir(exist_ok=True)
+    shutil.copy(file, folder / "submission" / f"{file.stem}-1.py")
+    ran("bash", folder / "source" / "run_autograder", cwd=folder, AUTOGRADER=str(folder))
+    result = json.loads((folder / "results" / "results.json").read_text())
+    points = {test["number"]: test["score"] for test in result["tests"]}
+    assert result["score"] == sum(points.values())
+    return points
 
-    submission, results = folder / "submission", folder / "results"
-    submission.mkdir(exist_ok=True)
-    shutil.copy(file, submission / f"{file.stem}-1.py")
-    script = folder / "source" / "run_autograder"
-    ran("bash", script, cwd=folder, AUTOGRADER=str(folder))
-    result = json.loads((results / "results.json").read_text())
-    assert {test["number"]: test["score"] for test in result["tests"]} == expected
-    assert result["score"] == sum(expected.values())
 
+def by_classroom50(file, number, exported, copy, tmp_path):
     home = tmp_path / "home"
-    building.write(home / "exercises", number, text)
-    script = folder / "autograders" / f"ex{number:02d}" / "autograder.py"
+    building.write(home / "exercises", number, file.read_text())
+    script = exported(number) / "autograders" / f"ex{number:02d}" / "autograder.py"
     ran(sys.executable, script, cwd=home, **RUNNER)
     result = json.loads((home / "result.json").read_text())
-    assert {test["test-name"].split()[0]: test["score"] for test in result["tests"]} == expected
+    return {test["test-name"].split()[0]: test["score"] for test in result["tests"]}
 
-    put(copy, number, text)
+
+def by_actions(file, number, exported, copy, tmp_path):
+    put(copy, number, file.read_text())
     module = "botschool.grading.classes.platforms"
     command = [sys.executable, "-m", module, "actions", number, ".", tmp_path / "grades.json"]
     ran(*command, cwd=copy, BOTSCHOOL_COURSE=str(copy))
     (result,) = json.loads((tmp_path / "grades.json").read_text())
-    assert {task["id"]: task["points"] for task in result["tasks"]} == expected
+    return {task["id"]: task["points"] for task in result["tasks"]}
+
+
+KINDS = ("skeleton", "solution", "half", "hostile")
+PLATFORMS = (by_gradescope, by_classroom50, by_actions)
+IN_TURN = [
+    pytest.param(
+        number, kind, PLATFORMS[(number + place) % len(PLATFORMS)], id=f"ex{number:02d}-{kind}"
+    )
+    for number in building.GRADED
+    for place, kind in enumerate(KINDS)
+]
+"""Each exercise meets each platform, and so does each kind of file."""
+
+
+@pytest.mark.parametrize(("number", "kind", "platform"), IN_TURN)
+def test_points_are_those_of_grade(grade, exported, copy, tmp_path, number, kind, platform):
+    file = building.write(tmp_path, number, text_of(kind, building.source(number)))
+    expected = {task.id: task.points for task in grade(building.exercise(number), file).tasks}
+    assert platform(file, number, exported, copy, tmp_path) == expected
