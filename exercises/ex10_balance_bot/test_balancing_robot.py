@@ -132,8 +132,9 @@ def on_stage(module, call, lean, others, speed, given, mode=None):
             observation, info = env.reset(seed=seed)
         found = {"the observation": observation, "self.speed": env.speed, "the info": str(info)}
         found["the number of bodies"] = pybullet.getNumBodies(env.client)
+        found["self.robot"] = env.robot
         pass_time(30)
-        return found | {"30 steps later, the robot": numpy.array([*seen()[:2], place()[0][2]])}
+        return found | {"30 steps later, the robot": numpy.array([*seen()[:2], *place()[0]])}
 
     def drive():
         speeds, wheels, actions = [], [], numpy.array(given, dtype=numpy.float32)[:, None]
@@ -206,7 +207,10 @@ def goes_on_without_seed(rng):
     yield from resets(rng, [one, None], [0, None], [one, None, None], [two, 0, None])
 
 
-@once_more(resetting, 4, on_stage, 1e-4, ("the number of bodies", "30 steps later, the robot"))
+WORLD = ("the number of bodies", "self.robot", "30 steps later, the robot")
+
+
+@once_more(resetting, 4, on_stage, 1e-4, WORLD)
 def makes_the_world(rng):
     yield from resets(rng, [seed_of(rng)], [seed_of(rng), None], [seed_of(rng), seed_of(rng)])
 
