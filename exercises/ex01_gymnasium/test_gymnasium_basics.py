@@ -31,11 +31,12 @@ def described(module, observed, acted, maxsteps):
 
 
 def spaces(rng):
-    """Pairs of a Box and a Discrete space, in both orders, with a time limit or none."""
+    """Pairs of a Box and a Discrete space, in both orders; the last Box has rows."""
     for count in range(4):
         size, choices, first = (int(n) for n in rng.integers(2, 9, 3))
-        low, high = rng.normal(size=size) - 5, rng.normal(size=size) + 5
-        low[0], high[1] = -np.inf, np.inf
+        shape = (size + 1, 2) if count == 3 else (size,)
+        low, high = rng.normal(size=shape) - 5, rng.normal(size=shape) + 5
+        low.flat[0], high.flat[1] = -np.inf, np.inf
         box, discrete = (low, high), (choices, first)
         limit = int(rng.integers(50, 5000)) if count < 2 else None
         yield (box, discrete, limit) if count % 2 else (discrete, box, limit)
@@ -89,12 +90,13 @@ def ended(module, steps, maxsteps, seed):
     """random_episode(an environment whose task ends in step {0}, and its time in step {1}, ...)"""
     from botschool.grading.run.made_up import made_up
 
-    name, _ = made_up(([-1], [1]), (2, 0), [0.5] * steps, maxsteps)
+    name, _ = made_up(([-1], [1]), (2, 4), [0.5] * steps, maxsteps)
     return module.random_episode(name, seed, 1000)
 
 
 def ends_and_shape(answer, *_):
-    return ends(answer) | {"the shape of observations": list(np.shape(answer["observations"]))}
+    shape = {"the shape of observations": list(np.shape(answer["observations"]))}
+    return ends(answer) | shape | {"actions": [int(action) for action in answer["actions"]]}
 
 
 @same(episode, 3, ended, view=ends_and_shape)

@@ -83,6 +83,9 @@ def reward(rng):
     yield from (np.abs(each) * (-1, 1, 1, 1, 1, 1) for each in [*observations(rng)][1:8])
     # exactly on the line
     yield from (np.array([0.0, side, 0, side, 0, 0]) for side in (1, -1))
+    # a little above and below it
+    for angle in np.arccos((-0.502, -0.501, -0.4985)):
+        yield np.array([np.cos(angle), np.sin(angle), 1, 0, 0, 0])
 
 
 replications = exercise.task("4.3", "Replications with the tool")

@@ -164,7 +164,8 @@ def rounded_to_places(c: Comparison) -> str | None:
     for places in (1, 2, 3):
         nearly = np.round(c.wanted, places)
         if c.same(nearly) and not alike(nearly, np.round(c.wanted, places - 1)):
-            return f"It is rounded to {places} places, but the number itself is asked for."
+            digits = "1 digit" if places == 1 else f"{places} digits"
+            return f"Your code rounds to {digits} after the point, but the number itself is asked for."
     return None
 
 
