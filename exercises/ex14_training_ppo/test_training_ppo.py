@@ -298,9 +298,9 @@ def limits_give_no_sign(rng):
         indicators["early"] = {"steps": steps[:20], "values": np.full(20, level)}
         chosen = {
             f"{name} {side} {limit}": (name, side, limit)
-            for name in indicators
-            for side in ("above", "below")
             for limit in (level - 0.5, level, level + 0.5)
+            for side in ("above", "below")
+            for name in indicators  # so that names do not stand together
         }
         yield indicators, 3000, chosen
 
