@@ -68,6 +68,23 @@ def test_what_stays_is_told_before_what_numbers_suggest(messages):
     assert first_line(messages, body, declared(many=6)) == afresh.KEPT
 
 
+def test_a_count_that_was_right_for_another_call_has_not_stayed(messages):
+    exercise = Exercise(3, "Three", FILE)
+
+    @same(exercise.task("3.1", "Counted", seconds=5), 100, "counted")
+    def counts(rng):
+        yield [1.0, 2.0, 3.0, 4.0], 1.5
+        yield [5.0, 6.0, 7.0, 8.0, 9.0], 2.0
+
+    body = "def counted(values, limit):\n    return sum(each {} limit for each in values)\n"
+    begin, end = "    ### BEGIN SOLUTION task 3.1: count\n", "    ### END SOLUTION\n"
+    line, code = body.format(">").splitlines(keepends=True)
+    exercise.knows(line + begin + code + end, "")
+    (message,) = messages(body.format(">="), exercise)
+    assert "returned 3, but 2 was expected" in message
+    assert "stays" not in message
+
+
 class Chosen:
     """Gives the next of these answers, twice at a time."""
 
