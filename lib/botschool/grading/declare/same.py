@@ -295,17 +295,18 @@ def _before_another(module, name, arguments, others):
 
 def alike(said: str, got: Any, wanted: Any, tolerance: float, parts: tuple[str, ...] = ()) -> None:
     """Raise Wrong at the first part of an answer that differs from ours."""
+    before = said.rstrip(",")  # a driver's words may end so, before "returned"
     if isinstance(wanted, dict):
         keys = parts or tuple(wanted)
         for key in keys:  # a view may show fewer parts of a wrong answer
             value = expect_fields(said, got, key)[0]
-            alike(f"{said}: {key}", value, wanted[key], tolerance)
+            alike(f"{before}: {key}", value, wanted[key], tolerance)
     elif isinstance(wanted, (list, tuple)) and not numbers(wanted):
         names = parts or tuple(f"[{i}]" for i in range(len(wanted)))
         right = isinstance(got, (list, tuple)) and len(got) == len(wanted)
         expect(right, f"{said} should be {len(wanted)} values, not {show(got)}.")
         for name, one, other in zip(names, got, wanted, strict=True):
-            alike(f"{said}: {name}", one, other, tolerance)
+            alike(f"{before}: {name}", one, other, tolerance)
     elif wanted is None or isinstance(wanted, (str, bool, np.bool_)):
         got, wanted = (bool(e) if isinstance(e, np.bool_) else e for e in (got, wanted))
         right = isinstance(got, (str, bool, np.bool_, type(None))) and got == wanted
