@@ -31,12 +31,11 @@ def described(module, observed, acted, maxsteps):
 
 
 def spaces(rng):
-    """Pairs of a Box and a Discrete space, in both orders; the last Box has rows."""
+    """Pairs of a Box and a Discrete space, in both orders, with a time limit or none."""
     for count in range(4):
         size, choices, first = (int(n) for n in rng.integers(2, 9, 3))
-        shape = (size + 1, 2) if count == 3 else (size,)
-        low, high = rng.normal(size=shape) - 5, rng.normal(size=shape) + 5
-        low.flat[0], high.flat[1] = -np.inf, np.inf
+        low, high = rng.normal(size=size) - 5, rng.normal(size=size) + 5
+        low[0], high[1] = -np.inf, np.inf
         box, discrete = (low, high), (choices, first)
         limit = int(rng.integers(50, 5000)) if count < 2 else None
         yield (box, discrete, limit) if count % 2 else (discrete, box, limit)
