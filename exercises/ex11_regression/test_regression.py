@@ -42,10 +42,9 @@ def sizes_of(module, inputs, hiddens, outputs):
 
     made, patterns = module.Network(inputs, hiddens, outputs), torch.ones(2, inputs)
     layers = (made.hidden.weight, made.hidden.bias, made.output.weight, made.output.bias)
-    names = ("hidden.weight", "hidden.bias", "output.weight", "output.bias")
+    names = (f"the shape of {a}.{b}" for a in ("hidden", "output") for b in ("weight", "bias"))
     shapes = [None if each is None else str(tuple(each.shape)) for each in layers]
-    found = {f"the shape of {name}": shape for name, shape in zip(names, shapes, strict=True)}
-    return found | {
+    return dict(zip(names, shapes, strict=True)) | {
         "the number of parameter tensors": len(list(made.parameters())),
         "that torch can follow its outputs back": made(patterns).requires_grad,
         "that torch can follow its features back": made.features(patterns).requires_grad,
@@ -156,6 +155,7 @@ def descents(rng, epochs, momentum):
     for sizes in SIZES[1:]:
         rate = round(float(rng.uniform(0.02, 0.1)), 3)
         yield "train", [epochs, rate, momentum], *drawn(rng, *sizes)
+    yield "train", [epochs, rate, momentum], *(0 * each for each in drawn(rng, *SIZES[1]))
 
 
 same(loop, 4, trained, 1e-3, name="one_epoch")(descents, 1, 0.0)
