@@ -262,6 +262,7 @@ def tables(rng):
     for names, episodes in (
         (["CartPole-v1"], 3),
         (["CartPole-v1"], 5),
+        (["CartPole-v1"], 1),
         (["CartPole-v1", "CartPole-v1"], 2),
         (["CartPole-v1", "MountainCar-v0"], 3),
         (["CartPole-v1", "Acrobot-v1"], 1),
