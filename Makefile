@@ -94,7 +94,7 @@ nbgrader: .venv/.tests ## a course folder for nbgrader in results/nbgrader
 
 # Of the exercises that ONLY names, the packages that they need; else all that tests use.
 checked = $(patsubst ex%,%,$(filter ex%,$(ONLY)))
-check-course: $(if $(checked),.venv/.pytest $(foreach n,$(checked),$(call extras,$(n))),.venv/.tests) ## prove that exercises and grading work (an hour and a half on two cores); ONLY=ex03: those of exercise 3; SECRETS=5: what depends on the grading seeds
+check-course: $(if $(checked),.venv/.pytest $(foreach n,$(checked),$(call extras,$(n))),.venv/.tests) ## prove that exercises and grading work (one to two hours on two cores); ONLY=ex03: those of exercise 3; SECRETS=5: what depends on the grading seeds
 	@$(PYTEST) -m course tests/course$(if $(SECRETS),/test_secrets.py --secrets $(SECRETS)) $(if $(ONLY),-k "$(ONLY)")
 
 check-arm: .venv/.tests ## play the recorded runs on an emulated ARM processor, and compile for macOS and Windows

@@ -22,7 +22,7 @@ from botschool.grading.declare.same import Same
 from botschool.grading.judge.afresh import KEPT, answers_afresh, kept_something
 from botschool.grading.judge.alike import TIE, distance
 from botschool.grading.judge.calls import Call
-from botschool.grading.judge.known import answered_by, calls_of, named
+from botschool.grading.judge.known import INPUTS, answered_by, calls_of, named
 from botschool.grading.judge.looking import Failure, looked_at_again
 from botschool.grading.judge.smallest import difference, smallest_case
 from botschool.grading.run.ours import Ours
@@ -35,6 +35,8 @@ SLOW = 0.2
 """Processor seconds of our answer to a call that is not repeated."""
 SPENT = 0.5
 """Processor seconds of the submission's answers to a check's inputs; then no others are made."""
+PATIENT = 4
+"""How many times as long others are made while too few answers are wrong to name a mistake."""
 MOST_WORDS = 80
 """Words of a message; of a longer one, the small call is not shown."""
 MORE = ("draw", "changes", "square", "one")
@@ -95,7 +97,9 @@ class Explanation:
                     calls.append(call)
         kept = [call for call in found if answered_by(again, call)]
         for call in more:
-            if sum(each.took for each in kept) < SPENT and answered_by(again, call):
+            few = sum(each.wrong for each in kept) < INPUTS
+            spent = sum(each.took for each in kept)
+            if spent < (PATIENT if few else 1) * SPENT and answered_by(again, call):
                 kept.append(call)
         return kept
 
