@@ -165,7 +165,9 @@ def rounded_to_places(c: Comparison) -> str | None:
         nearly = np.round(c.wanted, places)
         if c.same(nearly) and not alike(nearly, np.round(c.wanted, places - 1)):
             digits = "1 digit" if places == 1 else f"{places} digits"
-            return f"Your code rounds to {digits} after the point, but the number itself is asked for."
+            return (
+                f"Your code rounds to {digits} after the point, but the number itself is asked for."
+            )
     return None
 
 
