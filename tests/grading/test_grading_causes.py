@@ -105,18 +105,35 @@ def test_chance_is_seen_in_one_of_five_answers(answers, told):
     assert ("gives another answer: by chance" in found) == told
 
 
-@pytest.mark.parametrize("seconds", [0.0, 100.0])
-def test_a_slow_submission_is_asked_for_the_inputs_only(messages, monkeypatch, seconds):
-    asked = []
+ALL_WRONG = "return {'table': table, 'largest': 0.0}"
+SQUARES_WRONG = SQUARES_STAY.format(
+    "return {'table': table if square else table.T, 'largest': table.max()}"
+)
+
+
+@pytest.mark.parametrize(
+    ("body", "limit", "more"),
+    [(ALL_WRONG, 100.0, True), (ALL_WRONG, 1.0, False), (SQUARES_WRONG, 1.0, True)],
+    ids=["quick", "slow", "wrong too seldom to be named"],
+)
+def test_more_calls_are_made_for_a_time(messages, monkeypatch, body, limit, more):
+    """Each call takes a second."""
+    asked, answered = [], causes.answered_by
+
+    def timed(submission, call):
+        done = answered(submission, call)
+        call.took = 1.0
+        return done
 
     def named(ours, calls, *_):
         asked.append(len(calls))
         return "named"
 
-    monkeypatch.setattr(causes, "SPENT", seconds)
+    monkeypatch.setattr(causes, "SPENT", limit)
+    monkeypatch.setattr(causes, "answered_by", timed)
     monkeypatch.setattr(causes, "named", named)
-    first_line(messages, "return {'table': table, 'largest': 0.0}")
-    assert (asked == [2]) == (seconds == 0.0)
+    first_line(messages, body)
+    assert (asked != [2]) == more
 
 
 def test_the_first_mistake_that_explains_all_ends_the_search(messages, monkeypatch):
@@ -129,8 +146,7 @@ def test_the_first_mistake_that_explains_all_ends_the_search(messages, monkeypat
     monkeypatch.setattr(replay, "_near", counted)
     other = "%% other_{0} loses 3.1\nAdds {0}.\ndef turned(table):\n    return table + {0}\n\n\n"
     known = "".join(map(other.format, range(20))) + MISTAKE
-    body = SQUARES_STAY.format("return {'table': table if square else table.T, 'largest': 0.0}")
-    found = first_line(messages, body.replace("0.0", "table.max()"), declared(known))
+    found = first_line(messages, SQUARES_WRONG, declared(known))
     assert found == line_about("Leaves square tables as they are.")
     assert len(tried) <= replay.FEW
 

@@ -34,9 +34,9 @@ SECONDS = 3.0
 SLOW = 0.2
 """Processor seconds of our answer to a call that is not repeated."""
 SPENT = 0.5
-"""Processor seconds of the submission's answers to a check's inputs; then no others are made."""
+"""Processor seconds of the submission's answers, after which no more calls are made from inputs."""
 PATIENT = 4
-"""How many times as long others are made while too few answers are wrong to name a mistake."""
+"""SPENT is so many times as long while too few answers are wrong to name a mistake."""
 MOST_WORDS = 80
 """Words of a message; of a longer one, the small call is not shown."""
 MORE = ("draw", "changes", "square", "one")
@@ -97,7 +97,7 @@ class Explanation:
                     calls.append(call)
         kept = [call for call in found if answered_by(again, call)]
         for call in more:
-            few = sum(each.wrong for each in kept) < INPUTS
+            few = len({each.request for each in kept if each.wrong}) < INPUTS
             spent = sum(each.took for each in kept)
             if spent < (PATIENT if few else 1) * SPENT and answered_by(again, call):
                 kept.append(call)
