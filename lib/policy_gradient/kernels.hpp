@@ -27,9 +27,7 @@ struct Kernels {
 };
 
 const Kernels& kernels_baseline();
-#ifdef BOTSCHOOL_X86
 const Kernels& kernels_avx2();
 const Kernels& kernels_avx512();
-#endif
 
 }  // namespace botschool::policy_gradient

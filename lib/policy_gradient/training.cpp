@@ -8,8 +8,10 @@ namespace {
 const Kernels& kernels_for(const std::string& instruction_set) {
   const auto known = instruction_sets();
   const std::string& name = instruction_set.empty() ? known.back() : instruction_set;
-#ifdef BOTSCHOOL_X86
+#ifdef BOTSCHOOL_AVX512
   if (name == "avx512") return kernels_avx512();
+#endif
+#ifdef BOTSCHOOL_AVX2
   if (name == "avx2") return kernels_avx2();
 #endif
   return kernels_baseline();

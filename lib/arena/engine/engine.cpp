@@ -21,8 +21,10 @@ KernelTable table_for(const std::string& instruction_set) {
   bool found = false;
   for (const auto& each : known) found |= each == name;
   if (!found) throw std::invalid_argument("this machine has no instruction set '" + name + "'.");
-#ifdef BOTSCHOOL_X86
+#ifdef BOTSCHOOL_AVX512
   if (name == "avx512") return kernel_table_avx512();
+#endif
+#ifdef BOTSCHOOL_AVX2
   if (name == "avx2") return kernel_table_avx2();
 #endif
   return kernel_table_baseline();
@@ -54,8 +56,10 @@ std::unique_ptr<Stepper> find_stepper(const std::string& name, ProblemList<Probl
 
 std::vector<std::string> instruction_sets() {
   std::vector<std::string> names{"baseline"};
-#ifdef BOTSCHOOL_X86
+#ifdef BOTSCHOOL_AVX2
   if (cpu_has_avx2()) names.push_back("avx2");
+#endif
+#ifdef BOTSCHOOL_AVX512
   if (cpu_has_avx2() && cpu_has_avx512()) names.push_back("avx512");
 #endif
   return names;

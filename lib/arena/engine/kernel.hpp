@@ -73,9 +73,7 @@ struct KernelTable {
 };
 
 KernelTable kernel_table_baseline();
-#ifdef BOTSCHOOL_X86
 KernelTable kernel_table_avx2();
 KernelTable kernel_table_avx512();
-#endif
 
 }  // namespace botschool
