@@ -135,6 +135,8 @@ def progress_bars() -> Iterator[Bars]:
         TimeRemainingColumn,
     )
 
+    from botschool.console import Console
+
     columns = (
         TextColumn("seed {task.fields[seed]}"),
         BarColumn(bar_width=8),
@@ -143,7 +145,7 @@ def progress_bars() -> Iterator[Bars]:
         TimeRemainingColumn(compact=True),
         TextColumn("{task.fields[numbers]}"),
     )
-    with Progress(*columns, refresh_per_second=5) as progress:
+    with Progress(*columns, console=Console(), refresh_per_second=5) as progress:
         yield Bars(progress)
 
 

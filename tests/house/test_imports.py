@@ -10,7 +10,8 @@ import botschool
 PACKAGE = Path(botschool.__file__).parent
 
 LAYERS = (
-    {"errors", "npy", "sisters", "__init__"},
+    {"errors", "npy", "screen", "sisters", "__init__"},
+    {"console"},
     {"_core", "paths", "terminal", "inifile", "output", "sandbox"},
     {"examples", "linear", "lock", "seeds", "wrappers"},
     {"policies"},

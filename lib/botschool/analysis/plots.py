@@ -349,8 +349,9 @@ def _title(folders: Sequence[Path]) -> str:
 def print_table(title: str, fitness: dict[str, np.ndarray]) -> None:
     """Print a row of numbers for each experiment."""
     from rich import box
-    from rich.console import Console
     from rich.table import Table
+
+    from botschool.console import Console
 
     table = Table(title=title, box=box.SIMPLE, title_justify="left")
     table.add_column("experiment", overflow="fold")

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from rich import box
-from rich.console import Console
 from rich.table import Table as Grid
 
 from botschool.analysis.figure import PICTURE_SUFFIXES, new_figure, tidy
@@ -26,6 +25,7 @@ from botschool.analysis.tournament import (
     progress,
     verdict,
 )
+from botschool.console import Console
 from botschool.output import check_output, save_bytes
 
 # --- Tournaments as text: tables and sentences for a terminal or a file.
@@ -136,7 +136,7 @@ def progress_bar(total: int) -> Iterator[Callable[[int], None]]:
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
     columns = ("generations", BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(compact=True))
-    with Progress(*columns) as bar:
+    with Progress(*columns, console=Console()) as bar:
         task = bar.add_task("", total=total)
         yield lambda done: bar.update(task, completed=done)
 

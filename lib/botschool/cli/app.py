@@ -19,6 +19,7 @@ import typer
 from botschool import __version__
 from botschool.cli import course, es, examples, labs, page, plots, rl, tournament, tune
 from botschool.errors import BotschoolError
+from botschool.screen import guarded_terminal
 
 UsageError: Any = typer.BadParameter.__base__
 
@@ -92,7 +93,8 @@ def run() -> NoReturn:
     try:
         if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
             signal.signal(signal.SIGINT, stop)
-        code = _run()
+        with guarded_terminal():
+            code = _run()
     except KeyboardInterrupt:
         pass
     finally:

@@ -183,10 +183,10 @@ def _write_pages(experiment: Experiment, seeds: list[int], folder: Path, say: bo
 
 
 def _list_hyperparameters() -> None:
-    from rich.console import Console
     from rich.table import Table
 
     from botschool.config import describe
+    from botschool.console import Console
 
     table = Table("Section", "Hyperparameter", "Default", "Meaning", title="Hyperparameters")
     for section, name, default, meaning in describe():

@@ -26,9 +26,10 @@ def examples(
         for path in ours.copy(names, folder):
             print(f"made: {path}")
         return
-    from rich.console import Console
     from rich.markup import escape
     from rich.table import Table
+
+    from botschool.console import Console
 
     console = Console(highlight=False)
     table = Table(box=None, pad_edge=False, header_style="dim")

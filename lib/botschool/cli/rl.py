@@ -18,10 +18,10 @@ app = typer.Typer(
 def _explain(wanted: bool) -> None:
     if not wanted:
         return
-    from rich.console import Console
     from rich.markup import escape
     from rich.table import Table
 
+    from botschool.console import Console
     from botschool.rl.explained import EXPLAINED, OF
 
     console = Console()

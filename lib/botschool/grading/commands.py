@@ -13,9 +13,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from rich.console import Console
 from rich.markup import escape
 
+from botschool.console import Console
 from botschool.errors import BotschoolError
 from botschool.grading.classes.batch import Grades, Job
 from botschool.grading.declare.checks import plain

@@ -20,6 +20,7 @@ from botschool.policies.policy import Policy
 from botschool.problems.base import Problem
 from botschool.render.watch import read_genotype
 from botschool.sandbox.inside import read_inside
+from botschool.screen import plain
 
 DISCIPLINES = {
     "PlanarHopper-v5": "hopper",
@@ -152,7 +153,7 @@ def read_robot(file: str, name: str, about: str, genotype: np.ndarray) -> Entry:
             "algo": {},
         }
         experiment = from_dict(parts, "its experiment")
-        shown = " ".join(name.encode("utf-8", "replace").decode().split())[:MAX_NAME]
+        shown = plain(" ".join(name.encode("utf-8", "replace").decode().split()))[:MAX_NAME]
         entry = Entry(file, shown, experiment, genotype)
         entry.robot()
     except BotschoolError as error:

@@ -182,7 +182,7 @@ def _table(title: str, first: str, numbers: Sequence[str]) -> Table:
 
 
 def _show(table: Table) -> None:
-    from rich.console import Console
+    from botschool.console import Console
 
     Console(highlight=False, width=None if sys.stdout.isatty() else 120).print(table)
 

@@ -7,8 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
 
-from rich.console import Console
-
+from botschool.console import Console
 from botschool.errors import BotschoolError, BotschoolErrors
 from botschool.grading.classes.collect import PAGES, TABLE, Asked, Class, Laboratory, grade_all
 from botschool.grading.classes.exporting import export

@@ -12,6 +12,7 @@ from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.classes.texts import decoded
+from botschool.screen import plain
 
 MAX_TABLE = 20 * 2**20
 
@@ -121,8 +122,8 @@ _FORMULA = re.compile(
 
 
 def safe_cell(text: str) -> str:
-    """Return a text in one line that no spreadsheet takes for a formula.
+    """Return a text in one line that no spreadsheet takes for a formula, nor a terminal for more.
 
     A program that splits a table at semicolons sees further cells in it.
     """
-    return _FORMULA.sub(r"\1'", " ".join(text.split()))
+    return _FORMULA.sub(r"\1'", plain(" ".join(text.split())))

@@ -12,8 +12,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from rich.console import Console
-
+from botschool.console import Console
 from botschool.errors import BotschoolError
 from botschool.grading.classes.files import listed
 from botschool.grading.classes.identity import Student

@@ -10,6 +10,7 @@ import numpy as np
 from botschool.grading.declare import diagnosis
 from botschool.grading.declare.values import FEW, apart, arrays_apart, kind, show, start_of
 from botschool.sandbox.exceptions import nearest
+from botschool.screen import plain as plain
 
 
 class Wrong(Exception):
@@ -179,8 +180,3 @@ def came(said: str) -> str:
     while (shorter := _INSIDE.sub("", outside)) != outside:
         outside = shorter
     return "returned" if _CALL.match(said) and ": " not in outside else "is"
-
-
-def plain(text: str) -> str:
-    """Return a submission's text without characters that control a terminal or reverse the text."""
-    return "".join(c if c in "\n\t" or c.isprintable() or c == " " else "\ufffd" for c in text)

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from rich.console import Console
 from rich.markup import escape
 
+from botschool.console import Console
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import NotDone, Wrong, plain
 from botschool.grading.declare.exercise import Exercise, Task

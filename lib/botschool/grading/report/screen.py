@@ -9,10 +9,10 @@ from pathlib import Path
 from shlex import quote
 from typing import NamedTuple
 
-from rich.console import Console
 from rich.markup import escape
 from rich.padding import Padding
 
+from botschool.console import Console
 from botschool.errors import BotschoolError, listed
 from botschool.grading.declare.exercise import Exercise
 from botschool.grading.judge.submission import Result, TaskResult, grade

@@ -12,8 +12,7 @@ import webbrowser
 from collections import Counter
 from pathlib import Path
 
-from rich.console import Console
-
+from botschool.console import Console
 from botschool.errors import BotschoolError
 from botschool.grading.copies.release import MANIFEST
 from botschool.grading.copies.starting import living_page
