@@ -282,6 +282,7 @@ def test_a_report_begins_with_prediction_and_findings_and_repeats_no_instruction
     order = ["You predicted", "Which population solves CartPole first", "You found", "0.5",
              "498 to 500", "Points"]  # fmt: skip
     assert [page.index(each) for each in order] == sorted(page.index(each) for each in order)
+    assert "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src" in page
     assert "Ada &lt;b&gt;" in page and '<b class="answer">20</b>' in page
     assert "Write it before you run" not in page and "measure(run)" not in page.split("Points")[0]
     assert "<code>a &lt; b</code> is <em>it</em>" in _inline("`a < b` is *it*")

@@ -60,6 +60,16 @@ def test_numbers_that_are_invented_for_the_students_own_runs_do_not_count(lie, p
     assert "measure.py: of your run of seed" in parts[2].messages[0]
 
 
+@pytest.mark.parametrize("way", ["declare.load_lab(3).reference", "lab03.LAB.reference"])
+def test_our_own_measures_cannot_be_called(way, place):
+    name = way.partition(".")[0]
+    text = f"from botschool.labs import {name}\n\ndef measure(run):\n    return {way}(run, {{}})\n"
+    (place.folder / "measure.py").write_text(text)
+    parts = Check(place).all().parts
+    assert {p.name: p.points for p in parts} == FULL | {"measurements": 15}
+    assert "lab03" in parts[2].messages[0]
+
+
 # --- figures
 def png(width, height, **options):
     stream = io.BytesIO()

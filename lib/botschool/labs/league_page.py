@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from botschool.grading.report.paper import paper
 from botschool.labs.entries import Entry
 from botschool.labs.league import (
     CHASE_STEPS,
@@ -18,7 +19,7 @@ from botschool.labs.league import (
     Ranked,
     shown_name,
 )
-from botschool.labs.report import save_page
+from botschool.output import save_bytes
 from botschool.render.replay import write_replay
 from botschool.render.scenes import scene_of
 
@@ -31,23 +32,20 @@ TITLES = {
     "prey": "Prey",
 }
 _STYLE = """
-:root { color-scheme: light dark; --bar: #0072b2; --soft: #8882 }
-body { font: 16px/1.5 system-ui, sans-serif; max-width: 62rem; margin: 2rem auto; padding: 0 1rem }
-h1 { margin-bottom: .2rem } h2 { margin: 2.6rem 0 .2rem } p { margin: .3rem 0 1rem }
-.soft { opacity: .7 } nav a { margin-right: 1rem }
+h2 { margin: 2.6rem 0 .2rem; } p { margin: .3rem 0 1rem; } nav a { margin-right: 1rem; }
 .two { display: grid; grid-template-columns: repeat(auto-fit, minmax(19rem, 1fr)); gap: 1.5rem;
- align-items: start }
-table { border-collapse: collapse; width: 100% }
-td, th { padding: .25rem .5rem; text-align: left; border-bottom: 1px solid var(--soft) }
-td.n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap }
-td.name { overflow-wrap: anywhere } tr.first td { font-weight: 650 }
-.bar { background: var(--soft); height: .55rem; border-radius: .3rem; min-width: 5rem }
-.bar i { display: block; height: 100%; border-radius: .3rem; background: var(--bar) }
-iframe { width: 100%; height: 38rem; border: 1px solid var(--soft); border-radius: .5rem }
-details { margin: .6rem 0 } summary { cursor: pointer }
-.who { overflow-x: auto } .who table { width: auto; font-size: .75rem }
-.who td, .who th { padding: .1rem .3rem; border: 0; text-align: center }
-.who th.row { text-align: right; white-space: nowrap }
+ align-items: start; }
+table { border-collapse: collapse; width: 100%; }
+td, th { padding: .25rem .5rem; text-align: left; border-bottom: 1px solid var(--line); }
+td.n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
+tr.first td { font-weight: 650; }
+.bar { background: var(--line); height: .55rem; border-radius: .3rem; min-width: 5rem; }
+.bar i { display: block; height: 100%; border-radius: .3rem; background: #0072b2; }
+iframe { width: 100%; height: 38rem; border: 1px solid var(--line); border-radius: .5rem; }
+details { margin: .6rem 0; }
+.who { overflow-x: auto; } .who table { width: auto; font-size: .75rem; }
+.who td, .who th { padding: .1rem .3rem; border: 0; text-align: center; }
+.who th.row { text-align: right; white-space: nowrap; }
 """
 SHOWN = 10
 """Ranks that the page shows unfolded."""
@@ -67,7 +65,8 @@ def write_page(league: League, path: Path, folder: Path, title: str) -> None:
         body.append(f"<div>{_replay(league, name, places, folder)}</div></div>")
     if len(league.hunters) > 1:
         body.append(_who(league))
-    save_page(path, title, _STYLE, body)
+    page = paper(title, "\n".join(body), _STYLE, scripts=True)
+    save_bytes(path, page.encode("utf-8", "replace"))
 
 
 def _table(places: Sequence[Ranked]) -> str:

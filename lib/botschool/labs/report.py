@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from botschool import problems
+from botschool.grading.report.paper import paper
 from botschool.labs.check import Checked
 from botschool.labs.declare import WORDS, Field, Lab
 from botschool.labs.folder import Place
@@ -18,14 +19,12 @@ from botschool.labs.sheet import Sheet, Unreadable
 from botschool.output import save_bytes
 
 _STYLE = """
-:root { color-scheme: light dark }
-body { font: 16px/1.55 system-ui, sans-serif; max-width: 46rem; margin: 2rem auto; padding: 0 1rem }
-h1 { line-height: 1.2 } h2 { margin-top: 2.2rem; border-bottom: 1px solid #8886 }
-table { border-collapse: collapse; display: block; overflow-x: auto }
-td, th { border-bottom: 1px solid #8884; padding: .3rem .8rem; text-align: left }
-blockquote { border-left: 4px solid #0072b2; margin: 1rem 0; padding: .1rem 1rem }
-img { max-width: 100%; background: white } iframe { width: 100%; height: 34rem; border: 0 }
-b.answer { color: #0072b2 } li { margin: .3rem 0 }
+main { max-width: 46rem; } h2 { margin-top: 2.2rem; border-bottom: 1px solid var(--line); }
+table { border-collapse: collapse; display: block; overflow-x: auto; }
+td, th { border-bottom: 1px solid var(--line); padding: .3rem .8rem; text-align: left; }
+blockquote { border-left: 4px solid var(--answer); margin: 1rem 0; padding: .1rem 1rem; }
+img { max-width: 100%; background: white; } iframe { width: 100%; height: 34rem; border: 0; }
+b.answer { color: var(--answer); } main { --answer: #0072b2; } li { margin: .3rem 0; }
 """
 
 
@@ -49,18 +48,9 @@ def write_report(place: Place, checked: Checked, folder: Path) -> Path:
         body += ["<h2>In your words</h2>", f"<blockquote>{_inline(checked.words)}</blockquote>"]
     body.append(f"<h2>Points</h2>{_points(checked)}")
     path = place.folder / "report.html"
-    save_page(path, lab.title, _STYLE, body)
-    return path
-
-
-def save_page(path: Path, title: str, style: str, body: list[str]) -> None:
-    """Write a page; title: as plain text, body: parts of HTML."""
-    page = (
-        '<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" '
-        f'content="width=device-width"><title>{escape(title)}</title><style>{style}</style>'
-        f"</head><body>{''.join(body)}</body></html>\n"
-    )
+    page = paper(lab.title, "\n".join(body), _STYLE, scripts=True)
     save_bytes(path, page.encode("utf-8", "replace"))
+    return path
 
 
 def _told(title: str, fields: tuple[Field, ...], answers: dict[str, Any]) -> str:

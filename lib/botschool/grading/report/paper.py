@@ -52,12 +52,17 @@ details.given { background: var(--code); padding: .1rem .6rem; font-size: .8rem;
 """
 
 
-def paper(title: str, body: str, style: str = "") -> str:
-    """Return a page of its own; title: as plain text, body: as HTML."""
+def paper(title: str, body: str, style: str = "", scripts: bool = False) -> str:
+    """Return a page of its own; title: as plain text, body: as HTML.
+
+    scripts: let those run that the page itself holds, as replays do.
+    """
+    scripted = "; script-src 'unsafe-inline'" if scripts else ""
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta http-equiv="Content-Security-Policy"\n'
-        " content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'\">\n"
+        " content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'"
+        f'{scripted}">\n'
         f'<meta name="generator" content="{GENERATOR}">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         f"<title>{escape(title)}</title>\n<style>{_STYLE}{style}</style>\n</head>\n"
