@@ -64,12 +64,12 @@ notebook-ex%: $(READY) $$(call extras,$$*) $(if $(filter installed,$(READY)),,.v
 WORKERS ?= auto
 PYTEST := $(BIN)/python -m pytest -q -n $(WORKERS) --dist worksteal
 
-.PHONY: book test test-long fuzz check-course check-arm wheels nbgrader figures skeletons bench results lint format sanitize
-test: .venv/.tests ## the tests that take seconds
+.PHONY: book test test-all fuzz check-course check-arm wheels nbgrader figures skeletons bench results lint format sanitize
+test: .venv/.tests ## the quick tests
 	@$(PYTEST)
 
-test-long: .venv/.tests lib/botschool/page/spatial.wasm ## the tests that take minutes: whole runs, many seeds
-	@$(PYTEST) -m long
+test-all: .venv/.tests lib/botschool/page/spatial.wasm ## all tests but the proofs of the course
+	@$(PYTEST) -m "not course"
 
 book: .venv/.tests .venv/.extra-book ## a website of the texts and documents in results/book, for a folder or any host
 	@tools/setup.sh book

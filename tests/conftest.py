@@ -1,10 +1,12 @@
 """Fixtures of all tests. Tests open no window: pygame and matplotlib draw in memory."""
 
 import os
+import re
 import sys
 from pathlib import Path
 
 import pytest
+from quick import Quick
 
 os.environ["SDL_VIDEODRIVER"] = "dummy"
 os.environ["MPLBACKEND"] = "Agg"
@@ -17,6 +19,20 @@ def pytest_xdist_auto_num_workers():
     """
     known = hasattr(os, "sched_getaffinity")
     return min(8, len(os.sched_getaffinity(0)) if known else os.cpu_count() or 1)
+
+
+def pytest_configure(config):
+    if Path("/proc/self/stat").exists():  # elsewhere the processor time of children is not known
+        config.pluginmanager.register(Quick(limit=0.5))
+
+
+def pytest_ignore_collect(collection_path, config):
+    """Leave the thousands of proofs in tests/course alone unless `-m course` or a path asks."""
+    if collection_path != Path(__file__).parent / "course":
+        return None
+    paths = [Path(config.invocation_params.dir, name.split("::")[0]) for name in config.args]
+    named = any(collection_path in (path, *path.parents) for path in paths)
+    return None if named or re.search(r"(?<!not )\bcourse\b", config.option.markexpr) else True
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -1,6 +1,6 @@
 """Pages that evolve: the twins in C++ and JavaScript against the command, in Node and in a browser.
 
-They need the core for pages; `make test-long` builds it.
+They need the core for pages; `make test-all` builds it.
 """
 
 import hashlib
