@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
+
 from quick import Quick
 
 os.environ["SDL_VIDEODRIVER"] = "dummy"
@@ -33,6 +34,14 @@ def pytest_ignore_collect(collection_path, config):
     paths = [Path(config.invocation_params.dir, name.split("::")[0]) for name in config.args]
     named = any(collection_path in (path, *path.parents) for path in paths)
     return None if named or re.search(r"(?<!not )\bcourse\b", config.option.markexpr) else True
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """Mark tests in a browser: one takes seconds to start."""
+    for item in items:
+        if "browser" in item.fixturenames:
+            item.add_marker(pytest.mark.slow)
 
 
 @pytest.fixture(scope="session", autouse=True)

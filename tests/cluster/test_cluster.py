@@ -19,6 +19,8 @@ pytest.importorskip("distributed")
 
 from botschool.cluster import PATIENCE, chunks, connection, crew
 
+pytestmark = pytest.mark.slow
+
 EVERYTHING = {"DASK_BOTSCHOOL__SHORTEST": "0"}
 """Even the shortest batches go to the workers."""
 

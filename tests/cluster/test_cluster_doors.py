@@ -16,6 +16,8 @@ from botschool.cluster.connection import Connection
 from botschool.cluster.worker import bits
 from clusters import Cluster, registered
 
+pytestmark = pytest.mark.slow
+
 LATE = """
 import gymnasium, numpy as np
 from gymnasium import spaces

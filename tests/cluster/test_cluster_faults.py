@@ -27,7 +27,10 @@ from clusters import (
 from running import experiment, finish, one_sentence, same, start
 
 pytest.importorskip("distributed")
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals"),
+]
 
 GENERATION = re.compile(r"generation (\d+) ")
 POPULATIONS = re.compile(r"S5(Fit)?G\d+\.npy")

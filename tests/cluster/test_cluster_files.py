@@ -17,6 +17,8 @@ from clusters import ROOT, Cluster, certificates, registered
 from running import call, finish, one_sentence, same, start, write_experiment
 
 pytest.importorskip("distributed")
+
+pytestmark = pytest.mark.slow
 DEPLOY = ROOT / "deploy"
 posix = pytest.mark.skipif(sys.platform == "win32", reason="scripts of the shell")
 

@@ -196,6 +196,7 @@ def test_the_ends_of_the_ground():
     assert not env.step(np.zeros(10))[2]
 
 
+@pytest.mark.slow
 def test_an_explosion_ends_the_episode():
     env = made(BODIES[0], render_mode="rgb_array")
     for trouble in ("action", "speed"):
@@ -213,6 +214,7 @@ def test_an_explosion_ends_the_episode():
     assert episode(env, 3) == episode(made(BODIES[0]), 3)
 
 
+@pytest.mark.slow
 def test_worlds_are_freed():
     """What 200 episodes leave behind is far less than their worlds (some 5 KB each)."""
     memory = pytest.importorskip("psutil").Process().memory_info
@@ -284,6 +286,7 @@ def test_genotypes_end_with_the_body(problem):
     assert reward == transition.reward
 
 
+@pytest.mark.slow
 def test_fitness_is_a_pure_function(problem):
     """Equal bits in any order, after anything, in this process and in workers."""
     policy = policy_of(problem)
@@ -304,6 +307,7 @@ def test_fitness_is_a_pure_function(problem):
     assert played[-1].total == one.fitness[5]
 
 
+@pytest.mark.slow
 def test_runs_with_any_number_of_workers_and_interrupted(tmp_path):
     policy = {"maxsteps": 20, "normalize": 1}
     own = experiment(tmp_path, "envBodybrainCustom", "OpenAI-ES", policy, maxmsteps=0.0015)
@@ -317,6 +321,7 @@ def test_runs_with_any_number_of_workers_and_interrupted(tmp_path):
     assert saved[-64 - 70 : -70].any() and contents(tmp_path / "one")
 
 
+@pytest.mark.slow
 def test_film(command, tmp_path):
     ini, results = finished_run(tmp_path, "envBodybrainCustom", maxmsteps=0.0003)
     arguments = ["es", "-f", ini, "-p", "-g", results / "bestgS1.npy", "--episodes", 1]

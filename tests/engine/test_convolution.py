@@ -44,6 +44,7 @@ def spec_of(image=(2, 7, 6), filters=(3, 2), kernels=(3, 2), strides=(2, 1), **c
 # the network
 
 
+@pytest.mark.slow
 @REPEATABLE
 @given(convolutional_specs(), st.integers(0, 2**32))
 def test_network_agrees_with_the_reference(spec, seed):
@@ -62,6 +63,7 @@ def test_network_agrees_with_the_reference(spec, seed):
     assert network.neurons == (read(spec), spec.outputs * spec.nbins)
 
 
+@pytest.mark.slow
 @REPEATABLE
 @given(convolutional_specs(), st.integers(0, 2**32))
 def test_convolutions_are_those_of_torch(spec, seed):
@@ -263,6 +265,7 @@ def test_pixels_are_normalised_as_the_network_reads_them():
 # evolution
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("algo", "normalize"), [("SSS", 0), ("OpenAI-ES", 1), ("sNES", 0)])
 def test_they_evolve_alike_with_workers_and_resumed(algo, normalize, tmp_path):
     policy = POLICY | {"normalize": normalize}
@@ -285,6 +288,7 @@ def test_large_pictures_are_read_by_convolutional_networks_only(tmp_path, comman
     refused("es", "-f", ini, "-o", tmp_path / "run", says=says)
 
 
+@pytest.mark.slow
 def test_they_are_watched_and_filmed(command, tmp_path):
     ini = write_experiment(tmp_path, "tiny_envs:Picture-v0", policy=POLICY, maxmsteps=0.0003)
     assert command("es", "-f", ini, "-o", tmp_path)[0] == 0
@@ -350,6 +354,7 @@ def test_pong_is_preprocessed_and_stacked(pong):
     assert environments.make("ALE/Pong-v5", "AtariPreprocessing").unwrapped._frameskip == 1
 
 
+@pytest.mark.slow
 def test_an_episode_of_pong_does_not_depend_on_those_before(pong):
     policy = Policy("Pong", pong.interface, config.PolicyConfig(**POLICY))
     genotypes = np.array([policy.initial(1, i) for i in range(2)])

@@ -56,6 +56,7 @@ def reference(own):
 # what robots sense and are paid
 
 
+@pytest.mark.slow
 @REPEATABLE
 @given(
     st.integers(0, 10**6), st.integers(1, 32), st.sampled_from([30.0, 90.0, 200.0, 360.0]),
@@ -80,6 +81,7 @@ def test_sensors_have_something_to_see():
     assert set(zero % size) == {size - 1, size - 2}  # time and bias
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("reward", REWARDS)
 def test_rewards_follow_the_reference(reward):
     near = 700 if reward == "together" else 150
@@ -288,6 +290,7 @@ def test_a_run_goes_on_in_its_own_arena_only(tmp_path, refused):
 # what users see
 
 
+@pytest.mark.slow
 def test_the_command_evolves_shows_and_replays(tmp_path, command):
     path = declared(tmp_path)
     code, _, errors = command("es", "-f", path, "-o", tmp_path)

@@ -29,6 +29,7 @@ from tiny_envs import DIE_ONCE
 
 NATIVE = ("CartPole-v1", "Pendulum-v1", "Acrobot-v1", "ErDpole", "ErDiscrim", "ErPredprey")
 TINY = "tiny_envs:Tiny-v0"
+SLOW_TINY = pytest.param(TINY, marks=pytest.mark.slow)  # another process tries whether it repeats
 EVERY = pytest.mark.parametrize("step", [4, pytest.param(1, marks=pytest.mark.long)])
 """Each fourth moment, or all of them."""
 NORMALISED = {"normalize": 1, "clip": 1, "bias": 1, "action_noise": 1}
@@ -55,6 +56,7 @@ def test_threads_do_not_show(environment, algo, tmp_path):
     assert same(tmp_path / "1", tmp_path / "5")
 
 
+@pytest.mark.slow
 def test_worker_processes_do_not_show(tmp_path):
     """SSS with 2 processes, OpenAI-ES with 5; both against none."""
     for algo, workers in (("SSS", 2), ("OpenAI-ES", 5)):
@@ -89,6 +91,7 @@ def test_instruction_sets_do_not_show(environment, algo, tmp_path):
         assert same(tmp_path / sets[0], tmp_path / chosen)
 
 
+@pytest.mark.slow
 def test_a_worker_killed_in_the_middle_does_not_show(tmp_path, monkeypatch):
     own = small(tmp_path, TINY, "OpenAI-ES", maxmsteps=0.002)
     assert run_seeds(own, tmp_path / "undisturbed")
@@ -106,7 +109,7 @@ def test_a_worker_killed_in_the_middle_does_not_show(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("algo", ALGORITHMS)
-@pytest.mark.parametrize("environment", ["CartPole-v1", "ErDiscrim", "ErPredprey", TINY])
+@pytest.mark.parametrize("environment", ["CartPole-v1", "ErDiscrim", "ErPredprey", SLOW_TINY])
 def test_stopping_after_some_steps_does_not_show(environment, algo, tmp_path):
     own = small(tmp_path, environment, algo, maxmsteps=0.004)
     assert run_seeds(own, tmp_path / "whole")
@@ -128,6 +131,7 @@ def test_going_on_with_a_longer_run_does_not_show(algo, tmp_path):
     assert same(tmp_path / "whole", tmp_path / "parts")
 
 
+@pytest.mark.slow
 @EVERY
 @pytest.mark.parametrize("algo", ALGORITHMS)
 def test_a_request_to_stop_at_any_moment_does_not_show(algo, step, tmp_path):
@@ -193,6 +197,7 @@ def steps_done(folder):
     return int(np.load(folder / "statS3.npy")[-6])
 
 
+@pytest.mark.slow
 @posix
 @EVERY
 @pytest.mark.parametrize("algo", ALGORITHMS)
@@ -217,6 +222,7 @@ def test_many_kills_do_not_show(algo, step, tmp_path):
     assert same(tmp_path / "undisturbed", tmp_path / "killed")
 
 
+@pytest.mark.slow
 @posix
 def test_kills_with_worker_processes_do_not_show_and_leave_none_behind(tmp_path):
     own = experiment(tmp_path, TINY, "OpenAI-ES", NORMALISED, maxmsteps=1, saveeach=0)
@@ -236,6 +242,7 @@ def test_kills_with_worker_processes_do_not_show_and_leave_none_behind(tmp_path)
     assert same(tmp_path / "undisturbed", tmp_path / "killed")
 
 
+@pytest.mark.slow
 @posix
 @pytest.mark.parametrize("whom", ["the command", "all its processes"])
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM], ids=["Ctrl-C", "SIGTERM"])
@@ -267,6 +274,7 @@ def test_ctrl_c_saves_and_does_not_show(environment, workers, number, whom, tmp_
     assert same(tmp_path / "undisturbed", tmp_path / "stopped")
 
 
+@pytest.mark.slow
 @posix
 def test_ctrl_c_while_workers_start_is_quiet(tmp_path):
     """It reaches them too, in a terminal."""
@@ -283,6 +291,7 @@ def test_ctrl_c_while_workers_start_is_quiet(tmp_path):
     assert "all is saved" in out
 
 
+@pytest.mark.slow
 @posix
 def test_workers_never_hear_ctrl_c(tmp_path):
     """Not even while they start, when Python's own handler would end them with a traceback."""
@@ -301,6 +310,7 @@ def test_workers_never_hear_ctrl_c(tmp_path):
     assert (code, errors) == (0, "")
 
 
+@pytest.mark.slow
 @posix
 def test_a_second_ctrl_c_ends_at_once_and_harms_nothing(tmp_path):
     own = experiment(tmp_path, TINY, "SSS", NORMALISED, maxmsteps=1, saveeach=0)
@@ -318,6 +328,7 @@ def test_a_second_ctrl_c_ends_at_once_and_harms_nothing(tmp_path):
     assert same(tmp_path / "undisturbed", tmp_path / "stopped")
 
 
+@pytest.mark.slow
 @posix
 def test_a_second_request_is_not_discussed():
     program = (
@@ -332,6 +343,7 @@ def test_a_second_request_is_not_discussed():
     assert (ended.returncode, ended.stdout, ended.stderr) == (130, "True\n", "")
 
 
+@pytest.mark.slow
 @posix
 def test_a_run_whose_reader_has_gone_is_saved(tmp_path):
     """botschool es ... | head -2"""
@@ -347,6 +359,7 @@ def test_a_run_whose_reader_has_gone_is_saved(tmp_path):
     assert same(tmp_path / "undisturbed", tmp_path / "piped")
 
 
+@pytest.mark.slow
 def test_the_working_folder_and_the_environment_do_not_show(tmp_path):
     """Hash seeds, thread counts of libraries and locales are the machine's affair."""
     own = experiment(tmp_path, "Pendulum-v1", "OpenAI-ES", NORMALISED, maxmsteps=0.01)

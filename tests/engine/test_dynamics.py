@@ -71,6 +71,7 @@ def wrong(actual, expected, tolerance):
     return np.abs(actual - expected) > tolerance * np.maximum(1, np.abs(expected))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", RANGES)
 def test_one_step_agrees_with_gymnasium(name):
     rng = np.random.default_rng(7)

@@ -42,6 +42,7 @@ def swingup_step(state, action):
     return np.array(state) + 0.01 * np.array([v, linear, omega, angular])
 
 
+@pytest.mark.slow
 def test_swingup_follows_its_equations():
     rng = np.random.default_rng(1)
     stepper = _core.make_stepper("envSwingupCustom")
@@ -91,6 +92,7 @@ def double_pole_step(state, action):
     return y
 
 
+@pytest.mark.slow
 def test_double_pole_follows_its_equations():
     rng = np.random.default_rng(2)
     stepper = _core.make_stepper("ErDpole")

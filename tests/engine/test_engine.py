@@ -73,7 +73,21 @@ def same(one, other):
     return all(a.tobytes() == b.tobytes() and a.dtype == b.dtype for a, b in zip(one, other))  # noqa: B905
 
 
-CASES = list(itertools.product(INFOS, POLICIES))
+HEAVY = {"ErPredprey", "ErStaybehind", "PlanarBodyBrain-v0", "PlanarHalfCheetah-v0"}
+HEAVY |= {
+    "PlanarHalfCheetah-v5",
+    "SpatialAnt-v0",
+    "SpatialAnt-v5",
+    "SpatialHumanoidStandup-v0",
+    "SpatialBody-v0",
+}
+"""An episode of these takes long."""
+CASES = [
+    pytest.param(name, kind, marks=() if light else pytest.mark.slow)
+    for i, name in enumerate(INFOS)
+    for j, kind in enumerate(POLICIES)
+    for light in [(i + j) % len(POLICIES) in (0, 3) and name not in HEAVY]
+]
 
 
 @pytest.mark.parametrize(("name", "kind"), CASES)
@@ -233,6 +247,7 @@ def test_other_seeds_and_episodes_differ():
     assert len(np.unique(fitness)) == len(pairs)
 
 
+@pytest.mark.slow
 def test_python_goes_on_during_an_evaluation():
     policy = policy_of("Acrobot-v1")
     engine = _core.Engine("Acrobot-v1", policy.spec.core())
@@ -255,6 +270,7 @@ def test_python_goes_on_during_an_evaluation():
     assert ticks >= 10  # 1 or 2 if the evaluation kept the interpreter to itself
 
 
+@pytest.mark.slow
 def test_engines_work_side_by_side():
     """In Python threads too: each has memory of its own."""
     cases = [(name, kind) for name in INFOS for kind in ("recurrent", "LSTM")]

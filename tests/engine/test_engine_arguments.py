@@ -92,6 +92,7 @@ def test_many_threads_cost_nothing_for_few_episodes():
     assert same(engine.evaluate(**(good | {"threads": 2**31 - 1})), engine.evaluate(**good))
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="needs a limit on address space")
 def test_fewer_threads_do_when_the_system_gives_no_more():
     script = """

@@ -33,6 +33,7 @@ def assert_close(actual, expected, tolerance):
     assert np.all(error <= tolerance), f"{error.max()} at {np.argmax(error)}"
 
 
+@pytest.mark.slow
 @REPEATABLE
 @given(specs(), st.integers(0, 2**32), st.sampled_from([0.3, 1.0, 1.5]))
 def test_network_agrees_with_the_reference(spec, seed, scale):
@@ -96,6 +97,7 @@ def py_evonet(spec, count=1, heterogeneous=False):
     )  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", problems.names())
 @REPEATABLE
 @given(policy_choices(), st.sampled_from([1, 1, 2, 5]), st.integers(0, 2**32))

@@ -245,6 +245,7 @@ def test_such_functions_are_seen(line):
     assert calls_of_the_c_library(line)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(
     not (sys.platform == "linux" and platform.machine() == "x86_64"),
     reason="glibc's tunables choose instructions on x86-64",

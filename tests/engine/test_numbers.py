@@ -75,6 +75,7 @@ def test_logarithms_are_the_system_s():
     assert logarithms(u).tolist() == [math.log1p(-each) for each in u.tolist()]
 
 
+@pytest.mark.slow
 @SAME
 @given(WORDS, WORDS, st.lists(CALLS, max_size=8))
 def test_calls_give_what_numpy_gives(seed, generation, calls):

@@ -84,6 +84,7 @@ def test_starts_stand_above_the_even_ground():
         assert (ends[:, 1] - radii).min() == pytest.approx(0.1)
 
 
+@pytest.mark.slow
 def test_rewards_and_observations():
     touched = 0
     for p in BODIES:

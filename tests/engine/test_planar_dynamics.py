@@ -78,6 +78,7 @@ def full_mass_matrix(mujoco, model, data):
     return matrix
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", RUNNERS)
 def test_accelerations_and_mass_matrix_are_those_of_mujoco(name):
     """At 10,000 random states, with motors, dampers and springs, without contacts."""

@@ -73,6 +73,7 @@ def stepped(name, seed=0, strength=1.0):
             return
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_rewards_and_ends(name):
     seconds = SECONDS[name.split("-")[0]]

@@ -242,6 +242,7 @@ def without_pybullet(monkeypatch, tmp_path):
 SOLUTION = ROOT / "solutions" / "ex10_balance_bot" / "balancing_robot.py"
 
 
+@pytest.mark.slow
 def test_exercise_10_is_graded_without_pybullet(without_pybullet):
     """All tasks but training, which takes half a minute."""
     tasks = without_pybullet.tasks[:-1]
@@ -249,6 +250,7 @@ def test_exercise_10_is_graded_without_pybullet(without_pybullet):
     assert [task.points for task in result.tasks] == [task.max_points for task in tasks]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("old", "new", "task", "says"),
     [

@@ -48,6 +48,7 @@ def convoy(rng, steps):
     return actions
 
 
+@pytest.mark.slow
 def test_episodes_follow_the_reference_step_by_step():
     """Of random drivers, and of two that drive in a line, so that rewards are earned."""
     rng = np.random.default_rng(4)
@@ -68,6 +69,7 @@ def test_episodes_follow_the_reference_step_by_step():
     assert rewarded > 200 and bumps > 5 and blocked > 50 and freed > 20
 
 
+@pytest.mark.slow
 def test_who_is_blocked_stays_and_how_often():
     own = arena.make("staybehind", max_steps=500)
     held, onsets, steps = np.zeros(2), np.zeros(2), 0
@@ -142,6 +144,7 @@ def test_any_collision_ends_an_episode(start):
     assert own.step() == 0 and own.terminated
 
 
+@pytest.mark.slow
 def test_evaluation_is_the_same_world():
     """Returns of whole episodes with networks; whoever computes them: test_engine.py."""
     problem = problems.make("ErStaybehind")

@@ -218,6 +218,7 @@ RUNS = [
 """Of the algorithms that test_determinism.py does not run."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("algo", "options"), RUNS)
 def test_workers_and_stops_do_not_show(algo, options, tmp_path):
     own = experiment(
@@ -231,6 +232,7 @@ def test_workers_and_stops_do_not_show(algo, options, tmp_path):
     assert same(tmp_path / "whole", tmp_path / "parts")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("algo", ALGORITHMS)
 def test_both_push_the_point_to_the_middle(algo, tmp_path):
     """The Python path learns too: a random policy gets about 5 of 12."""

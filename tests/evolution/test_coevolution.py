@@ -198,6 +198,7 @@ def test_fitness_is_averaged_over_the_episodes(tmp_path):
     assert fitness[:6, 0] == pytest.approx(means)
 
 
+@pytest.mark.slow
 def test_event_files_hold_local_progress_and_both_sides(tmp_path, own):
     from tensorboard.backend.event_processing.event_accumulator import EventAccumulator
 
@@ -249,6 +250,7 @@ def test_during_a_generation_the_bar_goes_on(tmp_path, own):
 # workers, stops and kills
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("workers", [2, 5])
 def test_workers_do_not_show(workers, whole, tmp_path):
     assert run(whole.own, tmp_path / "run", workers)
@@ -284,6 +286,7 @@ def test_consecutive_episodes_share_networks(own):
     assert prey_evolve[20] == in_bands(range(6), [6, 7])
 
 
+@pytest.mark.slow
 def test_early_ends_do_not_show(whole, tmp_path):
     folder = tmp_path / "run"
     for limits in ({"generations": 1}, {"steps": 1}, {"generations": 1}, {"generations": 3}):
@@ -339,6 +342,7 @@ def test_only_runs_without_phases_may_be_lengthened(refused, tmp_path):
     refused(*arguments(tmp_path / "maxsolvestar", "--resume"), says=["maxmsteps", "is now 2000"])
 
 
+@pytest.mark.slow
 def test_a_request_to_stop_at_any_moment_does_not_show(whole, tmp_path):
     """In the first meeting, in sub-generations, between generations; heard before the next call."""
     for moment in (0, 1, 9, 22, 23, 40) if "coevo" in whole.algo else (0, 1, 6):
@@ -398,6 +402,7 @@ def told(process, generations):
         generations -= line.startswith("seed 3  generation")
 
 
+@pytest.mark.slow
 @posix
 def test_ten_kills_do_not_show(tmp_path):
     """By kill -9, at random moments of the real command."""
@@ -418,6 +423,7 @@ def test_ten_kills_do_not_show(tmp_path):
     assert same(tmp_path / "undisturbed", tmp_path / "run")
 
 
+@pytest.mark.slow
 @posix
 def test_ctrl_c_saves_the_last_whole_generation(tmp_path):
     own = experiment(tmp_path, ngenerations=100_000, saveeach=1000)
@@ -437,6 +443,7 @@ def test_ctrl_c_saves_the_last_whole_generation(tmp_path):
 # what comes after
 
 
+@pytest.mark.slow
 def test_populations_take_part_in_tournaments(whole, command, tmp_path):
     picture = tmp_path / "tournament.png"
     code, out, errors = command("tournament", whole.folder, "-f", whole.file, "-o", picture)
@@ -452,6 +459,7 @@ def test_populations_take_part_in_tournaments(whole, command, tmp_path):
         assert row[1 + whole.saved.index(generation)] == f"{expected:.2f}"
 
 
+@pytest.mark.slow
 def test_populations_are_shown_and_measured(whole, command, tmp_path):
     g, step, page = whole.saved[-2], whole.own.algo.saveeach, tmp_path / "chase.html"
     common = ("es", "-f", whole.file, "-s", 3, "-o", whole.folder, "-p", "-g")

@@ -480,6 +480,7 @@ def loads_or_refuses(path):
         assert from_dict(to_dict(experiment)) == experiment
 
 
+@pytest.mark.slow
 @QUICK
 @given(st.lists(LINES, max_size=8), st.booleans())
 def test_any_text_loads_or_is_refused(tmp_path, lines, headed):

@@ -59,6 +59,7 @@ def readable(folder, seed=1):
 # full disks
 
 
+@pytest.mark.slow
 @posix
 def test_files_that_may_not_grow(own, tmp_path):
     """A limit on the size of files is met in the middle of the run, at the checkpoint."""
@@ -86,6 +87,7 @@ def test_files_that_may_not_grow(own, tmp_path):
     assert same(tmp_path / "whole", folder)
 
 
+@pytest.mark.slow
 @linux
 def test_a_disk_that_is_full(own, small_disk, tmp_path):
     assert run_seeds(own, tmp_path / "whole")
@@ -103,6 +105,7 @@ def test_a_disk_that_is_full(own, small_disk, tmp_path):
         shutil.rmtree(folder)
 
 
+@pytest.mark.slow
 @linux
 def test_a_disk_that_fills_up_while_a_run_goes_on(own, small_disk, tmp_path):
     assert run_seeds(own, tmp_path / "whole")
@@ -124,6 +127,7 @@ def test_a_disk_that_fills_up_while_a_run_goes_on(own, small_disk, tmp_path):
     assert same(tmp_path / "whole", folder)
 
 
+@pytest.mark.slow
 @linux
 def test_output_to_a_full_disk(own, tmp_path):
     """botschool es ... > FILE, where the disk of FILE is full: what was done is saved."""

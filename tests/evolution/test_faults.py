@@ -65,6 +65,7 @@ def test_without_arguments_there_is_help(command):
     assert "es" in out + errors and "error" not in errors
 
 
+@pytest.mark.slow
 def test_help_loads_nothing_heavy():
     heavy = {"matplotlib", "gymnasium", "torch", "pybullet", "numpy", "tensorboard", "pygame"}
     program = (
@@ -261,11 +262,13 @@ def test_an_environment_that_breaks(fault, refused, tmp_path):
     breaks_in_the_middle(fault, says, refused, tmp_path, workers=1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fault", ["nan", "exits"])
 def test_an_environment_that_breaks_in_a_worker_process(fault, refused, tmp_path):
     breaks_in_the_middle(fault, BROKEN[fault], refused, tmp_path, workers=2)
 
 
+@pytest.mark.slow
 def test_workers_that_always_die(refused, tmp_path):
     breaks_in_the_middle("dies", ["died 3 times", "-w 1", "memory"], refused, tmp_path, workers=2)
 
@@ -308,6 +311,7 @@ def test_parameters_without_bound(environment, command, tmp_path):
         one_sentence(code, errors, ["seed", "stepsize"])
 
 
+@pytest.mark.slow
 def test_a_module_in_the_present_folder_is_named(tmp_path):
     """Once, whatever number of environments and worker processes; not one from elsewhere."""
     (tmp_path / "own_envs.py").write_text("from tiny_envs import *\n")

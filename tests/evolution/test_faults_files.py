@@ -85,6 +85,7 @@ def test_pickles_are_never_opened(refused, tmp_path):
 # checkpoints
 
 
+@pytest.mark.slow
 def test_truncated_checkpoints(refused, tmp_path):
     """Cut at every length, in steps; finished work stays as it was."""
     ini, results = finished_run(tmp_path, maxmsteps=0.001)
@@ -99,6 +100,7 @@ def test_truncated_checkpoints(refused, tmp_path):
         assert after == before
 
 
+@pytest.mark.slow
 def test_damaged_checkpoints(refused, command, tmp_path):
     """Bytes that have changed: refused, or where they mean nothing the run is as before."""
     ini, results = finished_run(tmp_path, maxmsteps=0.0005)
@@ -280,6 +282,7 @@ def test_other_files_of_numpy_are_refused_everywhere(refused, tmp_path):
         refused("page", "CartPole-v1", "-g", path, "-o", tmp_path / "x.html", says=[path])
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such pipes")
 def test_a_pipe_is_no_file(tmp_path):
     """Nobody writes into it, so reading would never end."""

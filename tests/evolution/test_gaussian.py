@@ -195,6 +195,7 @@ for name in VARIANTS:
 """
 
 
+@pytest.mark.slow
 def test_instruction_sets_and_blas_do_not_show():
     """Of numpy, and of its BLAS."""
     features = np._core._multiarray_umath.__cpu_features__

@@ -34,6 +34,7 @@ def evolving(tmp_path):
     process.communicate()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", ["--resume", "--force"])
 def test_a_run_that_another_command_writes_is_refused(how, evolving, tmp_path):
     arguments, process = evolving
@@ -48,6 +49,7 @@ def test_a_run_that_another_command_writes_is_refused(how, evolving, tmp_path):
     assert call(*arguments, "-s", 5, how, "--generations", 1)[0] == 0
 
 
+@pytest.mark.slow
 def test_other_seeds_of_the_folder_are_free(evolving, tmp_path):
     arguments, process = evolving
     for seed in (4, 6):
@@ -55,6 +57,7 @@ def test_other_seeds_of_the_folder_are_free(evolving, tmp_path):
     assert process.poll() is None and (tmp_path / "results" / NAME).exists()
 
 
+@pytest.mark.slow
 def test_a_killed_command_leaves_no_lock(evolving):
     arguments, process = evolving
     process.kill()
@@ -215,6 +218,7 @@ main()
 """
 
 
+@pytest.mark.slow
 def test_ctrl_c_in_the_middle_of_a_command_is_a_sentence(tmp_path):
     """Of a command that saves nothing."""
     (tmp_path / "acrobot.ini").touch()

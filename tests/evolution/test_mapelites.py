@@ -132,6 +132,7 @@ def run(tmp_path):
     return tmp_path / "run"
 
 
+@pytest.mark.slow
 def test_elites_are_drawn_and_play(run, command, tmp_path):
     picture, page = tmp_path / "map.png", tmp_path / "map.html"
     code, said, _ = command("plotelites", run, "-s", 1, "-o", picture, "--replay", page)

@@ -246,7 +246,9 @@ def evaluations_of_pycma(strategy, f, budget, target=1e-8):
     return None
 
 
-@pytest.mark.parametrize("f", [sphere, ellipsoid, cigar, rosenbrock, rotated])
+@pytest.mark.parametrize(
+    "f", [sphere, ellipsoid, cigar, rosenbrock, pytest.param(rotated, marks=pytest.mark.slow)]
+)
 def test_they_reach_the_optimum_that_pycma_reaches(f):
     """Within 1e-8: CMA-ES as fast, xNES several times slower, as its learning rates are.
 
@@ -265,6 +267,7 @@ def test_those_without_covariances_reach_the_optima_of_axes(f):
     assert evaluations(ours("sNES", start, 0.5), f, 40000)
 
 
+@pytest.mark.slow
 def test_many_candidates_find_the_best_of_many_optima():
     """Rastrigin's function in the plane: four seeds each, of which one may fail."""
     start, budget = np.full(2, 3.0), 7000

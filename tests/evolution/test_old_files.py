@@ -135,6 +135,7 @@ def test_it_says_what_it_says(name, tmp_path):
             assert same, (key, value, found)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", QUICK)
 def test_it_starts_and_goes_on_for_ten_generations(name, tmp_path, command):
     start(name, tmp_path, command, "--generations", 2)
@@ -143,6 +144,7 @@ def test_it_starts_and_goes_on_for_ten_generations(name, tmp_path, command):
     assert generations(tmp_path) == 12
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(set(FILES) - {*QUICK, *SLOW}))
 def test_a_longer_one_starts(name, tmp_path, command):
     start(name, tmp_path, command, "--steps", 1)
@@ -211,6 +213,7 @@ def test_interrupted_and_resumed_keeps_the_same(ini, tmp_path, command):
     assert same(whole, tmp_path / "parts")
 
 
+@pytest.mark.slow
 def test_runs_side_by_side_keep_the_same(ini, tmp_path, command):
     whole = run_of(command, ini, tmp_path / "whole", "-n", 2)
     assert same(whole, run_of(command, ini, tmp_path / "beside", "-n", 2, "-w", 2))

@@ -30,8 +30,11 @@ POLE = {"environment": "CartPole-v1", "algo": "SSS", "nhiddens": 3, "maxmsteps":
         ("import botschool; dir(botschool)", "numpy gymnasium torch rich matplotlib"),
         ("import botschool; botschool.evolve; botschool.problem", "torch matplotlib IPython"),
         ("import botschool.config", "torch pybullet matplotlib rich"),
-        ("import botschool.cli, botschool.rl.folder, botschool.rl.training", "torch"),
-        ("import botschool.analysis.plots", "torch"),
+        pytest.param(
+            "import botschool.cli, botschool.rl.folder, botschool.rl.training",
+            "torch",
+            marks=pytest.mark.slow,
+        ),
     ],
 )
 def test_importing_is_light(code, heavy):
@@ -46,7 +49,11 @@ def test_importing_is_light(code, heavy):
 @pytest.mark.parametrize("workers", [1, 2])
 @pytest.mark.parametrize(
     ("environment", "algo"),
-    [("CartPole-v1", "SSS"), ("Pendulum-v1", "OpenAI-ES"), ("tiny_envs:Tiny-v0", "SSS")],
+    [
+        ("CartPole-v1", "SSS"),
+        ("Pendulum-v1", "OpenAI-ES"),
+        pytest.param("tiny_envs:Tiny-v0", "SSS", marks=pytest.mark.slow),
+    ],
 )
 def test_files_are_those_of_the_command(environment, algo, workers, tmp_path):
     file = write_experiment(tmp_path, environment, algo, {"normalize": 1, "maxsteps": 50})
@@ -142,6 +149,7 @@ def test_old_results_without_a_checkpoint_are_loaded(runs, tmp_path):
     assert np.array_equal(known.returns, runs[1].returns)  # measured now
 
 
+@pytest.mark.slow
 def test_plots_pages_and_films_are_written(runs, tmp_path):
     pytest.importorskip("matplotlib")
     assert runs.plot(tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
@@ -159,6 +167,7 @@ def test_a_frame_of_pandas_has_the_same_columns(runs):
     assert list(runs[0].frame().index) == runs[0].history["generation"].tolist()
 
 
+@pytest.mark.slow
 def test_without_a_folder_files_go_with_the_run(tmp_path, monkeypatch):
     import gc
 
@@ -196,6 +205,7 @@ botschool.evolve("CartPole-v1", seeds=[1, 2], workers=2, folder=sys.argv[1], nhi
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")
 def test_ctrl_c_leaves_runs_that_resume_to_the_same_bits(tmp_path):
     script = tmp_path / "script.py"
@@ -253,6 +263,7 @@ def climbing(evaluate, centre, generations, seed, noise=0.1):
         strategy.tell(evaluate(strategy.ask()))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("algorithm", [Climber, climbing])
 def test_a_strategy_of_ones_own_resumes_and_is_the_commands(algorithm, tmp_path):
     given = {"algorithm": algorithm, "noise": np.float64(0.3), "hidden": 3, "maxmsteps": 0.02}
@@ -363,6 +374,7 @@ def test_remedies_are_those_of_python(tmp_path):
         botschool.evolve(POLE, folder=tmp_path, resume=True, nhiddens=4)
 
 
+@pytest.mark.slow
 def test_a_script_without_a_guard_evolves_on_one_core(tmp_path):
     script = tmp_path / "script.py"
     script.write_text(
@@ -403,6 +415,7 @@ def test_a_folder_that_cannot_be_is_not_blamed_on_space(kind, tmp_path):
 # --- trainings
 
 
+@pytest.mark.slow
 def test_a_training_is_that_of_the_command(tmp_path):
     agent = botschool.train(
         "CartPole-v1", seed=2, steps=3000, folder=tmp_path / "python", gamma=0.9
@@ -422,6 +435,7 @@ def test_a_training_is_that_of_the_command(tmp_path):
     assert repr(loaded) == repr(agent) and np.array_equal(loaded.returns, agent.returns)
 
 
+@pytest.mark.slow
 def test_another_engine_is_told(capsys):
     pytest.importorskip("stable_baselines3")
     agent = botschool.train("CartPole-v1", algo="a2c", steps=200)

@@ -14,6 +14,7 @@ def single(folder, **changed):
     return write_experiment(folder, policy={"pepisodes": 1} | changed, maxmsteps=0.003)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("environment", "pepisodes", "normalize"),
     [
@@ -35,6 +36,7 @@ def test_they_are_the_episodes_of_the_specification(environment, pepisodes, norm
     assert found.tolist() == again.tolist()  # the text keeps every bit
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("workers", [1, 2])
 def test_the_last_line_reports_them_with_an_interval(workers, tmp_path):
     code, out, _ = call("es", "-f", single(tmp_path), "-o", tmp_path / "o", "-w", workers, "-n", 2)
@@ -73,6 +75,7 @@ def test_a_run_that_goes_on_measures_its_new_best_robot(tmp_path):
     assert (tmp_path / "parts/freshS1.txt").read_text() == first
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("pepisodes", "remove", "says"),
     [
@@ -103,6 +106,7 @@ def test_plotave_reports_them_and_warns_of_lucky_numbers(pepisodes, remove, says
         assert title == (mixed if "2" in remove else "best post-evaluated fitness")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("damage", ["", "1\ntwo\n", "nan\n", "\x80"])
 def test_a_damaged_file_is_left_out_in_a_sentence(damage, tmp_path):
     own = config.load(single(tmp_path))

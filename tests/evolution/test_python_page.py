@@ -19,6 +19,7 @@ def test_the_page_shows_four_libraries():
     assert max(lines.values()) <= 15, lines
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", LIBRARIES)
 def test_a_library_finds_better_robots_by_its_example(name):
     pytest.importorskip(name)

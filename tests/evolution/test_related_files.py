@@ -28,6 +28,7 @@ def load(folder, content, algo=None):
     return config.load(path)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("differentiated", ["", "seldifferentiated = 1", "seldifferentiated = 0"])
 def test_archive_may_name_what_only_archivestar_uses(differentiated, tmp_path, command):
     """The two keys of the published file change nothing where one centre evolves."""

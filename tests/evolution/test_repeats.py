@@ -23,6 +23,7 @@ def nothing_was_said():
     say_unrepeatable.cache_clear()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name",
     [
@@ -48,6 +49,7 @@ def test_they_repeat(name, tmp_path, command, capfd):
     assert np.mean(shown) == pytest.approx(recorded, rel=1e-2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("workers", [1, 2])
 @pytest.mark.parametrize("name", ["CountsForAll", "CountsInstances", "DrawsOnItsOwn", "Samples"])
 def test_or_it_is_said_once(name, workers, tmp_path, capfd):
@@ -57,6 +59,7 @@ def test_or_it_is_said_once(name, workers, tmp_path, capfd):
     assert errors.count(f"odd_envs:{name}-v0 {NOTE}") == 1 and "self.np_random" in errors
 
 
+@pytest.mark.slow
 def test_what_shows_late_is_said_at_the_end_and_when_a_robot_is_shown(tmp_path, command, capfd):
     own = experiment(tmp_path, "odd_envs:GetsHarderLate-v0", maxmsteps=0.002)
     assert run_seeds(own, tmp_path / "run")
@@ -66,6 +69,7 @@ def test_what_shows_late_is_said_at_the_end_and_when_a_robot_is_shown(tmp_path, 
     assert NOTE in command("es", "-f", tmp_path / "own.ini", "-p", "--render", "none")[2]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["OrdersTexts", "HashesTexts", "KnowsProcess"])
 def test_what_differs_between_processes_is_said(name, tmp_path, capfd):
     own = experiment(tmp_path, f"odd_envs:{name}-v0", maxmsteps=0.0005)
@@ -78,6 +82,7 @@ def test_what_differs_between_processes_is_said(name, tmp_path, capfd):
     assert capfd.readouterr().err.count(NOTE) == 1
 
 
+@pytest.mark.slow
 def test_a_robot_is_shown_by_a_process_that_has_not_loaded_torch(tmp_path):
     pytest.importorskip("torch")
     write_experiment(tmp_path, "odd_envs:ImportsLate-v0")
@@ -85,6 +90,7 @@ def test_a_robot_is_shown_by_a_process_that_has_not_loaded_torch(tmp_path):
     assert shown[0] == 0 and NOTE not in shown[2]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("game", "repeats"), [("Carries", True), ("Shares", False)])
 def test_games_repeat_or_it_is_said(game, repeats, tmp_path, capfd):
     pytest.importorskip("pettingzoo")
@@ -158,6 +164,7 @@ def test_options_may_have_any_name(tmp_path, command):
     assert run_seeds(load(path), tmp_path / "run")
 
 
+@pytest.mark.slow
 def test_an_environment_that_must_draw_is_filmed(tmp_path, command, refused):
     pytest.importorskip("pygame")
     path = write_experiment(tmp_path, "MountainCar-v0", maxmsteps=0.0002)

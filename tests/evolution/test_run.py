@@ -16,8 +16,8 @@ from botschool.problems.base import Episodes
 from botschool.render.watch import PostEvaluation
 from running import ALGORITHMS, experiment, run_seeds, same
 
-ENVIRONMENTS = ("CartPole-v1", "tiny_envs:Tiny-v0")
-EVERY = [(name, algo) for name in ENVIRONMENTS for algo in ALGORITHMS]
+EVERY = [("CartPole-v1", algo) for algo in ALGORITHMS]
+EVERY += [pytest.param("tiny_envs:Tiny-v0", algo, marks=pytest.mark.slow) for algo in ALGORITHMS]
 every = pytest.mark.parametrize(("environment", "algo"), EVERY)
 
 
@@ -271,7 +271,9 @@ def test_event_files_of_long_runs_are_thinned(tmp_path):
     assert np.all(np.diff(steps) >= 200)
 
 
-@pytest.mark.parametrize("environment", ["Pendulum-v1", "MountainCar-v0"])
+@pytest.mark.parametrize(
+    "environment", ["Pendulum-v1", pytest.param("MountainCar-v0", marks=pytest.mark.slow)]
+)
 def test_post_evaluations_may_have_longer_episodes(environment, tmp_path):
     """pmaxsteps; here no episode ends by itself. With workers, and resumed, it is the same."""
     policy = {"maxsteps": 20, "pmaxsteps": 50}

@@ -87,6 +87,7 @@ def test_generations_that_are_saved_one_by_one_do_not_wait(tmp_path):
     assert count[0] == 2 * run.record.generation + 1  # fresh episodes at the end
 
 
+@pytest.mark.slow
 @each
 @algorithms
 def test_stops_after_every_generation_do_not_show(algo, policy, tmp_path):
@@ -98,6 +99,7 @@ def test_stops_after_every_generation_do_not_show(algo, policy, tmp_path):
     assert same(tmp_path / "whole", tmp_path / "parts")
 
 
+@pytest.mark.slow
 @each
 def test_requests_to_stop_at_any_moment_do_not_show(policy, tmp_path):
     own = experiment(tmp_path, "CartPole-v1", "OpenAI-ES", policy, maxmsteps=0.005)
@@ -156,6 +158,7 @@ def test_a_generation_asked_for_by_itself_is_whole(tmp_path):
 # runs side by side
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("workers", [2, 3, 7])
 def test_runs_side_by_side_are_as_one_after_another(workers, tmp_path, capsys):
     own = experiment(tmp_path, "CartPole-v1", "OpenAI-ES", maxmsteps=0.02)
@@ -171,6 +174,7 @@ def test_runs_side_by_side_are_as_one_after_another(workers, tmp_path, capsys):
         ]
 
 
+@pytest.mark.slow
 def test_a_run_that_fails_stops_the_others_and_all_is_saved(tmp_path):
     ini = write_experiment(tmp_path, "CartPole-v1", "OpenAI-ES", maxmsteps=1000)
     (tmp_path / "results").mkdir()
@@ -184,6 +188,7 @@ def test_a_run_that_fails_stops_the_others_and_all_is_saved(tmp_path):
     assert not (tmp_path / "results" / "statS3.npy").exists()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_runs_side_by_side_that_are_stopped_go_on(number, tmp_path):
@@ -213,6 +218,7 @@ def test_runs_side_by_side_that_are_stopped_go_on(number, tmp_path):
     assert same(tmp_path / "whole", results)
 
 
+@pytest.mark.slow
 def test_a_process_that_dies_is_told_in_a_sentence(tmp_path):
     ini = write_experiment(tmp_path, "CartPole-v1", "OpenAI-ES", maxmsteps=1000)
     process = start("es", "-f", ini, "-n", 2, "-w", 2, "-o", tmp_path / "results")
@@ -229,6 +235,7 @@ def test_a_process_that_dies_is_told_in_a_sentence(tmp_path):
     assert "seed 2: stopped after" in out
 
 
+@pytest.mark.slow
 def test_a_killed_command_leaves_no_processes(tmp_path):
     ini = write_experiment(tmp_path, "CartPole-v1", "OpenAI-ES", maxmsteps=1000)
     process = start("es", "-f", ini, "-n", 2, "-w", 2, "-o", tmp_path / "results")

@@ -197,6 +197,7 @@ def noisy(own, other, individuals, seed):
     return 0.5 + a[:, None, :, None] - b[None, :, None, :]
 
 
+@pytest.mark.slow
 def test_intervals_hold_the_true_progress_about_as_often_as_they_say():
     steps = 0.01 * np.arange(5)
     truth, held = 0.01 * (5 + 1) / 3, []

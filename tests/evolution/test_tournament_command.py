@@ -210,6 +210,7 @@ def test_a_replay_says_who_meets_whom(es, results):
     assert {name for name, *_ in data["scene"]["closeups"]} == {"predator", "prey"}
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not find_browser(), reason="no Chromium")
 def test_the_replay_shows_the_pair_of_the_episode(es, results, tmp_path):
     es("P-10-2", "--replay", results / "chase.html")
@@ -225,6 +226,7 @@ def test_the_replay_shows_the_pair_of_the_episode(es, results, tmp_path):
         browser.close()
 
 
+@pytest.mark.slow
 def test_the_tournament_is_drawn_with_its_numbers_beside_it(results, command, drawn):  # noqa: F811
     picture = results / "all.png"
     code, said, _ = command("tournament", results, "-f", results / "own.ini", "-o", picture)

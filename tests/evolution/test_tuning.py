@@ -87,6 +87,7 @@ def trials(plan):
     return [(t.params, t.value, t.state) for t in study.get_trials(states=ended)]
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::optuna.exceptions.ExperimentalWarning")
 def test_a_stopped_tuning_continues_and_its_best_file_runs(plan, tmp_path, command):
     said = []
@@ -113,6 +114,7 @@ def test_a_stopped_tuning_continues_and_its_best_file_runs(plan, tmp_path, comma
     assert refused[0] == 2 and "is a tuning with" in refused[2]
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::optuna.exceptions.ExperimentalWarning")
 def test_the_command(tmp_path, command, monkeypatch):
     monkeypatch.chdir(tmp_path)

@@ -7,13 +7,17 @@ import pytest
 from living import BUILT, open_figures
 
 
-@pytest.fixture
-def page(request, tmp_path):
-    """A browser with the living page of the exercise that names the test's file, 1280 pixels wide
-    or as a test asks; the page has reported no error in the end."""
+@pytest.fixture(scope="session")
+def core():
+    """The core for pages; skipped where it is not built."""
     if not BUILT:
         pytest.skip("the core for pages is not built: make web")
-    browser = request.getfixturevalue("browser")
+
+
+@pytest.fixture
+def page(request, core, browser, tmp_path):
+    """A browser with the living page of the exercise that names the test's file, 1280 pixels wide
+    or as a test asks; the page has reported no error in the end."""
     number = int(re.search(r"ex(\d\d)$", request.module.__name__)[1])
     open_figures(browser, number, tmp_path, width=getattr(request, "param", 1280))
     yield browser

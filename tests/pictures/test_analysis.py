@@ -377,12 +377,14 @@ def test_a_page_can_be_asked_for_at_any_time(run, command, refused, tmp_path):
     refused("es", "-f", path, "-s", 4, "-o", folder, "--page", says="statS4.npy")
 
 
+@pytest.mark.slow
 def test_robots_of_python_are_played_only_if_asked_for(tmp_path, command):
     path, folder = finished_run(tmp_path, "tiny_envs:Tiny-v0")
     assert command("es", "-f", path, "-s", 1, "-o", folder, "--resume")[0] == 0
     assert not Parts((folder / "pageS1.html").read_text()).within
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not find_browser(), reason="there is no browser")
 def test_a_browser_shows_it_without_an_error(run, tmp_path):
     browser = Browser(tmp_path / "profile")

@@ -94,6 +94,7 @@ def test_a_landscape_has_the_robot_in_its_middle(tmp_path, monkeypatch, command,
     refused("landscape", "p.ini", "-g", "bestgS1.npy", "-o", "l.png", says="two sides")
 
 
+@pytest.mark.slow
 def test_brains_do_best_in_their_own_bodies(tmp_path, monkeypatch, command, refused):
     monkeypatch.chdir(tmp_path)
     walker = "[EXP]\nenvironment = PlanarBodyBrain-v0\n[POLICY]\nmaxsteps = 100\nepisodes = 1\n"

@@ -124,6 +124,7 @@ assert before == dict(os.environ)
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems always have a display")
 def test_without_any_display_scenes_are_drawn_and_windows_refused():
     hidden = ("SDL_VIDEODRIVER", "DISPLAY", "WAYLAND_DISPLAY")
@@ -285,6 +286,7 @@ def test_frames_of_another_size_are_refused(tmp_path):
         video.write_video(tmp_path / "a.mp4", growing(), fps=25)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a device that is always full")
 def test_a_full_disk_is_said_in_a_sentence(tmp_path, monkeypatch):
     from pathlib import Path

@@ -233,6 +233,7 @@ def picture(browser):
     return browser.run("byId('scene').toDataURL()")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["ErDiscrim", "ErPredprey"])
 def test_the_page_plays_every_episode_and_stops(page, name, tmp_path):
     browser = page(arena(tmp_path / "a.html", name), place="")
@@ -249,6 +250,7 @@ def test_the_page_plays_every_episode_and_stops(page, name, tmp_path):
     assert browser.run("byId('total').innerText") == "1"
 
 
+@pytest.mark.slow
 def test_keys_steer_the_page(page, tmp_path):
     browser = page(arena(tmp_path / "a.html"))
     assert not browser.run("playing") and step(browser) == 1
@@ -292,6 +294,7 @@ def test_the_browser_reads_the_numbers_that_were_packed(page, tmp_path):
     assert half[0] == pytest.approx((numbers[0] + browser.run("numbersAt(7)")[0]) / 2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dark", [False, True])
 def test_a_phone_shows_it_all_and_is_steered_by_touch(page, tmp_path, dark):
     path = arena(tmp_path / "a.html", "ErPredprey")

@@ -83,6 +83,7 @@ def test_runs_of_the_comparisons_are_all_there():
                 assert [run["seed"] for run in runs] == list(study.SEEDS)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("studies")
 def test_an_interval_of_differences():
     import tuned
@@ -166,6 +167,7 @@ def test_names_of_atari(algo):
         assert [each.name for each in parse(entry["training_wrappers"])] == ["ClipReward"]
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("by_sb3")
 def test_a_robot_of_mujoco_trains(tmp_path):
     pytest.importorskip("mujoco")
@@ -176,6 +178,7 @@ def test_a_robot_of_mujoco_trains(tmp_path):
     assert len(run.evaluations().steps) == 2
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("by_sb3")
 @pytest.mark.parametrize("env", ["ALE/Pong-v5", "PongNoFrameskip-v4"])
 @pytest.mark.parametrize("algo", ["ppo", "dqn"])

@@ -52,6 +52,7 @@ def test_a_joint_is_put_where_it_is_told(arm):
     model.close()
 
 
+@pytest.mark.slow
 def test_sheet_and_film(arm, tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(showrobot, "SWEEP", 0.3)
     show_robot(str(arm), tmp_path / "arm.mp4", tmp_path / "arm.png")

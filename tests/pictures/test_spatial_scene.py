@@ -220,6 +220,7 @@ def test_a_replay_is_small_and_only_such_replays_hold_its_drawing(page, tmp_path
     assert "drawSpace(pen, width, height) {" not in (tmp_path / "b.html").read_text("utf-8")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dark", [False, True])
 def test_the_picture_depends_on_the_time_alone(page, browser, dark):
     browser.errors.clear()

@@ -80,6 +80,7 @@ def test_one_seed_of_all_comes_first_and_short_plans_end_first(tmp_path):
 # the queue
 
 
+@pytest.mark.slow
 def test_from_runs_to_the_page(tmp_path, monkeypatch):
     """The first milestone, then the second, of one run only."""
     plan = tiny(monkeypatch)
@@ -116,6 +117,7 @@ def test_from_runs_to_the_page(tmp_path, monkeypatch):
     assert "archive, " not in progress(late) and "| archive |" in reached(late)
 
 
+@pytest.mark.slow
 @posix
 def test_the_queue_is_stopped_and_goes_on(tmp_path, monkeypatch):
     """A request to stop reaches its runs, which end as they like."""
@@ -139,6 +141,7 @@ def test_the_queue_is_stopped_and_goes_on(tmp_path, monkeypatch):
     assert signal.getsignal(signal.SIGTERM) is not queue.stop
 
 
+@pytest.mark.slow
 def test_a_run_that_fails_stops_no_other(tmp_path, monkeypatch, capsys):
     plan = tiny(monkeypatch)
     import coevolution_queue
@@ -164,6 +167,7 @@ def test_a_run_that_fails_stops_no_other(tmp_path, monkeypatch, capsys):
 # numbers
 
 
+@pytest.mark.slow
 def test_intervals_over_seeds():
     from coevolution_page import in_words, interval
 

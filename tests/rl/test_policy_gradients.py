@@ -151,6 +151,7 @@ def test_rounding_is_that_of_torchs_single_precision(size):
     assert max(theirs) > 1e-6
 
 
+@pytest.mark.slow
 def test_adam_is_torchs():
     ppo = random_agent("Pendulum-v1", max_grad_norm=0.5)
     mine = torch.nn.Parameter(torch.tensor(ppo.parameters.copy()))

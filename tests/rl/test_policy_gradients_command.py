@@ -44,6 +44,7 @@ def assert_same(mine, theirs):
         np.testing.assert_array_equal(mine[name], array, err_msg=name)
 
 
+@pytest.mark.slow
 def test_a_training_needs_no_torch(tmp_path):
     code = """if True:
         import sys
@@ -83,6 +84,7 @@ def test_curves_are_tensorboards(tmp_path):
     assert evaluations.returns.shape == (5, 20)
 
 
+@pytest.mark.slow
 def test_engines_have_the_same_indicators(tmp_path):
     pytest.importorskip("stable_baselines3")
     columns = {}
@@ -129,6 +131,7 @@ def test_the_agent_is_the_one_that_was_measured(env, tmp_path):
         assert returns.mean() == pytest.approx(mine.mean(), rel=0.15)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", ["threads", "killed"])
 def test_interrupted_is_uninterrupted(engine, tmp_path):
     """Killed at random moments and resumed, with other threads: the same files."""
@@ -169,6 +172,7 @@ def test_interrupted_is_uninterrupted(engine, tmp_path):
     assert_same(files_of(folder), expected)
 
 
+@pytest.mark.slow
 def test_replications_are_the_trainings_by_themselves(tmp_path):
     options = ["--algo", "ppo", "--env", "CartPole-v1", "--steps", "2000"]
     done = botschool(["rl", "train", *options, "-r", "3", "-w", "2", "-s", "5", "-o", tmp_path])
@@ -233,6 +237,7 @@ def test_settings_of_another_kind_that_fuzzers_found(tmp_path, line):
         Agent.load(run.best)
 
 
+@pytest.mark.slow
 def test_what_cannot_go_on_is_a_sentence(tmp_path):
     run = train("ppo", "CartPole-v1", tmp_path, steps=600, evaluations=1, episodes=2)
     (run.path / "checkpoint.npz").write_bytes(b"PK rubbish")
@@ -246,6 +251,7 @@ def test_what_cannot_go_on_is_a_sentence(tmp_path):
         Agent.load(run.best)
 
 
+@pytest.mark.slow
 def test_an_evolved_robot_beside_a_trained_one(tmp_path, command, refused):
     """The robot that comes with botschool hops far; an agent that has hardly learned falls."""
     pytest.importorskip("imageio_ffmpeg")

@@ -8,7 +8,7 @@ import pytest
 
 from botschool.rl.native import PPO
 
-pytestmark = pytest.mark.usefixtures("studies")
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("studies")]
 SEEDS = range(1, 6)
 DOUBT = 0.05
 

@@ -21,7 +21,7 @@ from botschool.wrappers import parse
 from running import finish, one_sentence, start
 
 pytest.importorskip("stable_baselines3")
-pytestmark = pytest.mark.usefixtures("by_sb3")
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("by_sb3")]
 SMALL = {"n_steps": 32, "batch_size": 32, "n_epochs": 2}
 FILES = {"best_model.zip", "last_model.zip", "config.yaml", "evaluations.npz", "progress.csv"}
 SHOWN_BY_TENSORBOARD = {

@@ -33,7 +33,7 @@ OF_PHYSICS = ("InvertedPendulum-v5", "InvertedDoublePendulum-v5", "Reacher-v5", 
 """Problems of MuJoCo and Bullet."""
 
 pytest.importorskip("sb3_contrib")
-pytestmark = pytest.mark.usefixtures("by_sb3")
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("by_sb3")]
 
 
 def agent_of(algo, env):

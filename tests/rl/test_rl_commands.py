@@ -187,6 +187,8 @@ def test_wrappers_that_do_not_exist(tmp_path, refused):
 
 pytest.importorskip("stable_baselines3")
 
+pytestmark = pytest.mark.slow
+
 TINY = ("--steps", 64, "--envs", 2, "--episodes", 2, "--evaluations", 1)
 SMALL = ("n_steps:32", "batch_size:32", "noptepochs:1")
 

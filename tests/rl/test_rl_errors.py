@@ -101,6 +101,7 @@ def test_values_are_read_as_numbers_words_and_lists():
     assert parse(items) == values | {"g": "auto_0.1"}
 
 
+@pytest.mark.slow
 def test_learning_that_explodes(tmp_path):
     params = {"learning_rate": 1e30, "max_grad_norm": 1e30, "n_steps": 32, "batch_size": 32}
     with pytest.raises(BotschoolError, match=r"broke down after \d+ steps.*lower learning_rate"):

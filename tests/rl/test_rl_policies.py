@@ -19,7 +19,7 @@ from botschool.rl.training import train
 from botschool.rl.tuning import SPACES, Plan, tune
 from running import TESTS
 
-pytestmark = pytest.mark.usefixtures("by_sb3")
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("by_sb3")]
 
 pytest.importorskip("stable_baselines3")
 TINY = {"steps": 64, "envs": 1, "evaluations": 1, "episodes": 2}

@@ -14,6 +14,8 @@ from botschool.rl.environments import make
 torch = pytest.importorskip("torch")
 pytest.importorskip("stable_baselines3")
 
+pytestmark = pytest.mark.slow
+
 POINT = spaces.Box(-1, 1, (2,), np.float32)
 INFINITE = np.inf
 ACTIONS = {

@@ -11,6 +11,8 @@ from botschool.rl.training import learn
 
 pytest.importorskip("stable_baselines3")
 
+pytestmark = pytest.mark.slow
+
 
 class Endless(gymnasium.Env):
     """Episodes in evaluation never end; those of the training end after 20 steps."""
