@@ -9,6 +9,7 @@ import pytest
 
 from quick import Quick
 
+SLOW_MODULE = re.compile(r"^pytestmark = \[?\s*pytest\.mark\.slow", re.MULTILINE)
 os.environ["SDL_VIDEODRIVER"] = "dummy"
 os.environ["MPLBACKEND"] = "Agg"
 
@@ -28,19 +29,26 @@ def pytest_configure(config):
 
 
 def pytest_ignore_collect(collection_path, config):
-    """Leave the thousands of proofs in tests/course alone unless `-m course` or a path asks."""
-    if collection_path != Path(__file__).parent / "course":
-        return None
+    """Do not import what would be deselected: modules that are slow as a whole, and the
+    thousands of proofs in tests/course unless a mark or a path asks for them.
+    """
+    marks = config.option.markexpr
     paths = [Path(config.invocation_params.dir, name.split("::")[0]) for name in config.args]
-    named = any(collection_path in (path, *path.parents) for path in paths)
-    return None if named or re.search(r"(?<!not )\bcourse\b", config.option.markexpr) else True
+    if any(collection_path in (path, *path.parents) for path in paths):
+        return None
+    if collection_path == Path(__file__).parent / "course":
+        return None if re.search(r"(?<!not )\bcourse\b", marks) else True
+    if collection_path.suffix == ".py" and "not slow" in marks:
+        text = collection_path.read_text(encoding="utf-8")
+        return True if SLOW_MODULE.search(text) else None
+    return None
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """Mark tests in a browser: one takes seconds to start."""
+    """Mark tests that start a browser or compile."""
     for item in items:
-        if "browser" in item.fixturenames:
+        if {"browser", "compiled"} & set(item.fixturenames):
             item.add_marker(pytest.mark.slow)
 
 

@@ -316,6 +316,7 @@ gymnasium.register("Paddle-v0", entry_point=Paddle, max_episode_steps=20)
 '''
 
 
+@pytest.mark.slow
 def test_a_problem_in_python(tmp_path):
     (tmp_path / "paddle.py").write_text(PADDLE)
     ini = tmp_path / "paddle.ini"

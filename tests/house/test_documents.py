@@ -93,11 +93,13 @@ def cited_sections(text: str) -> list[str]:
     ]
 
 
+@pytest.mark.slow
 def test_no_file_refers_to_a_document_outside_the_repository():
     found = [f"{name}: {match[0]}" for name in texts() for match in OUTSIDE.finditer(texts()[name])]
     assert not found
 
 
+@pytest.mark.slow
 def test_every_link_of_a_document_leads_somewhere():
     broken = {
         name: links

@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 import botschool
 
 PACKAGE = Path(botschool.__file__).parent
@@ -133,6 +135,7 @@ def test_the_sandbox_imports_nothing_of_ours():
             assert all(unit(target) == "sandbox" for target in targets), name
 
 
+@pytest.mark.slow
 def test_nothing_of_the_package_imports_exercises_or_solutions():
     for path in PACKAGE.rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text())):

@@ -50,6 +50,7 @@ def installed(tmp_path_factory):
     return folder
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("arguments", [(), pytest.param(("--grade",), marks=pytest.mark.long)])
 def test_progress_of_every_skeleton_is_nothing(copy, arguments):
     environment = environment_of_command(BOTSCHOOL_COURSE=str(copy), COLUMNS="80")
@@ -68,6 +69,7 @@ def test_progress_of_every_skeleton_is_nothing(copy, arguments):
         assert re.search(rf"^ *{number} .* 0 +{told}", out, re.MULTILINE), out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", NUMBERS)
 def test_packed_grader_declares_the_same_exercise(copy, number, command, monkeypatch):
     ours, packed = load_exercise(number, ROOT), load_exercise(number, copy)
@@ -178,6 +180,7 @@ def test_no_text_of_an_installed_copy_names_what_it_does_not_have(installed):
     assert "regression.py" in chapter and "tests/" not in chapter and "| test |" not in chapter
 
 
+@pytest.mark.slow
 def test_a_copy_of_what_a_wheel_brings_is_the_same(installed, tmp_path, monkeypatch):
     monkeypatch.setattr(releasing, "material", lambda: installed.resolve())
     monkeypatch.setattr(trusting, "material", lambda: installed.resolve())
@@ -194,6 +197,7 @@ def test_a_copy_of_what_a_wheel_brings_is_the_same(installed, tmp_path, monkeypa
         release(tmp_path / "copy", tmp_path / "another")
 
 
+@pytest.mark.slow
 def test_what_a_wheel_gets_has_no_plain_solutions_graders_and_measures(tmp_path):
     """As tools/material.py puts it into a wheel."""
     subprocess.run([sys.executable, ROOT / "tools" / "material.py", tmp_path], check=True)
@@ -228,12 +232,14 @@ def test_every_figure_of_the_texts_is_in_the_copy(copy):
     assert max(path.stat().st_size for path in pictures) <= 60_000
 
 
+@pytest.mark.slow
 def test_figures_come_with_their_exercises(tmp_path):
     release(ROOT, tmp_path / "copy", {3, 7})
     names = {path.name[:4] for path in (tmp_path / "copy/docs/images/course").iterdir()}
     assert names == {"ex03", "ex07"}
 
 
+@pytest.mark.slow
 def test_answers_are_packed(tmp_path):
     """The real ones; a teacher may hold them back, and this stays so."""
     copy = tmp_path / "copy"
@@ -260,6 +266,7 @@ def test_no_marks_of_what_was_left_out_remain(copy):
     assert "make test-exN" in make.stdout and "solution" not in make.stdout
 
 
+@pytest.mark.slow
 def test_start_page(copy):
     """The copy's README is the students' start page, with links that lead somewhere."""
     text = (copy / "README.md").read_text(encoding="utf-8")

@@ -196,6 +196,7 @@ def steps_of_demo(folder):
     return commands, said
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not shutil.which("make"), reason="needs make")
 def test_the_demo_makes_what_it_names(tmp_path, monkeypatch):
     commands, said = steps_of_demo(tmp_path)
