@@ -24,6 +24,7 @@ from botschool.grading.declare.state import VARIABLE
 from botschool.grading.nbgrader import make_course
 from botschool.grading.notebook import grade_cell
 from botschool.grading.run.cells import Unreadable, definitions, plain_python, scripts, whole
+from botschool.sandbox.parts import run_parts
 from direct import Direct, DirectOurs
 
 REGION = re.compile(
@@ -237,7 +238,7 @@ def test_definitions_keep_what_functions_use_and_nothing_that_runs():
     script = definitions(cells)
     assert script.left_out == [[3, 1, 4, "SyntaxError: invalid syntax", []]]
     names = {}
-    exec(script.text, names)
+    run_parts(script.text, "here.py", names)
     assert names["f"](3) == 3.0 and names["C"].rate == 0.5
     assert not {"OTHER", "result", "_"} & set(names)
     line = next(n for n, text in enumerate(script.text.split("\n")) if "def f" in text)

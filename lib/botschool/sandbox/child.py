@@ -21,18 +21,25 @@ import numpy
 
 from botschool.sandbox import confine, protocol
 from botschool.sandbox.exceptions import Missing, explain
+from botschool.sandbox.parts import run_parts
 
 WAIT = 24 * 3600
 """Seconds to wait for the next request; the caller kills this process long before."""
 
 
-def load(path: Path) -> Any:
-    """Import the untrusted file as a module named `student`; it may import files beside it."""
+def load(path: Path, in_parts: bool = False) -> Any:
+    """Import the untrusted file as a module named `student`; it may import files beside it.
+
+    in_parts: a statement that fails costs only what uses its names.
+    """
     sys.path.append(str(path.parent))
     spec = importlib.util.spec_from_file_location("student", path)
     module = importlib.util.module_from_spec(spec)
     sys.modules["student"] = module
-    spec.loader.exec_module(module)
+    if in_parts:
+        run_parts(path.read_text(encoding="utf-8"), str(path), vars(module))
+    else:
+        spec.loader.exec_module(module)
     return module
 
 
@@ -167,7 +174,7 @@ def serve(requests: int, answers: int) -> None:
     confine.limit(set_up["seconds"], set_up["memory"], set_up["file_size"])
     # nothing untrusted has run yet
     prepared = called(*set_up["prepare"]) if set_up["prepare"] else None
-    references = set_up["references"]
+    references, in_parts = set_up["references"], set_up["in_parts"]
     places = ("readable", "listed", "writable")
     missing = confine.confine(*([Path(path) for path in set_up[each]] for each in places))
     del set_up
@@ -178,7 +185,7 @@ def serve(requests: int, answers: int) -> None:
     while (message := pipes.receive()) is not None:
         if module is None and failure is None:
             try:
-                module = load(file)
+                module = load(file, in_parts)
                 if references:
                     substitute(module, references)
                 if prepared is not None:

@@ -56,6 +56,7 @@ class Child:
         references: dict[str, Any] | None = None,
         prepare: list[Any] | None = None,
         listed: Iterable[Path] = (),
+        in_parts: bool = False,
     ) -> None:
         """Start the process.
 
@@ -65,6 +66,7 @@ class Child:
         prepare: source of a function, its name and its arguments, called before the process is
         confined and the file is loaded; it returns a function to call afterwards.
         listed: folders in which it may read names, also of files that are closed.
+        in_parts: whether a statement of the file that fails costs only what uses its names.
         Raises SandboxError.
         """
         self.helping: Callable[[Any], Any] | None = None
@@ -101,6 +103,7 @@ class Child:
             listed=[str(path) for path in listed],
             references=references,
             prepare=prepare,
+            in_parts=in_parts,
         )
         """What this system cannot confine: some of "files", "processes", "network"."""
         threading.Thread(target=self._look, daemon=True).start()

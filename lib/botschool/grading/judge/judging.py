@@ -60,6 +60,8 @@ class TaskResult:
     """Whether the task has a picture, so that `show` draws its answers."""
     hung: bool = False
     """Whether a call did not return in time."""
+    note: str = ""
+    """Lines below the message, whatever the cause is."""
     printed: str = ""
     """The beginning of what the submission printed."""
     missing: list[str] = field(default_factory=list)
@@ -74,6 +76,8 @@ class TaskResult:
         if self.explain is not None:
             explain, self.explain = self.explain, None
             self.message = explain()
+        self.message += self.note
+        self.note = ""
         return self
 
 

@@ -17,9 +17,14 @@ from botschool.grading.declare.exercise import Exercise, Task, cannot_be_graded
 from botschool.grading.declare.references import functions_of, pruned
 from botschool.grading.judge.judging import TaskResult, grade_task, tried_twice
 from botschool.grading.judge.known import TOLD, VARIED
-from botschool.grading.run.cells import Script, Unreadable, gives_builtins, scripts
-from botschool.grading.run.confined import content_digest, fork_server, submission_files
-from botschool.grading.run.failures import Origin, marked
+from botschool.grading.run.cells import NEWER, Script, Unreadable, gives_builtins, scripts
+from botschool.grading.run.confined import (
+    MachineFault,
+    content_digest,
+    fork_server,
+    submission_files,
+)
+from botschool.grading.run.failures import Origin, SourceLines, marked
 from botschool.grading.run.notebooks import code_cells, names_in_other_cells
 from botschool.grading.run.ours import ours_of
 from botschool.grading.run.student import Student
@@ -27,6 +32,8 @@ from botschool.sandbox import ForkServer
 from botschool.sandbox.inside import read_inside
 from botschool.sandbox.scratch import MAX_COPIED
 
+MOST_LOST = 100
+"""Names without a value that are told."""
 LOADING_SECONDS = 10
 """Processor seconds of all code in a file or a notebook outside functions."""
 _CELL = re.compile(r"^(?=# %%)", re.MULTILINE)
@@ -148,6 +155,7 @@ class Submission:
         self._starts: list[int] = []
         self._results: dict[str, TaskResult] = {}
         self._lost: dict[str, str] = {}
+        self._in_parts = False
         self._failure = ""
         self.banner = ""
         """Why the file, or a part of it, cannot be loaded, in some lines."""
@@ -185,6 +193,8 @@ class Submission:
                 result = self._attempt(task)
             if self._exercise is not None and result.points < result.max_points:
                 result = self._with_references(task, result)
+                own = functions_of(self._exercise.known.solution).get(task.id, ())
+                result.note = self._twice(own)
             self._results[task.id] = result
         return self._results[task.id]
 
@@ -192,14 +202,22 @@ class Submission:
         """Return the submission in a process of its own, as a task runs it. Raises Wrong."""
         file = self._file if self._script else self._given
         limits = task.seconds, task.memory, self._server, True
-        return Student(file, *limits, refused=task.refused)
+        return Student(file, *limits, origin=self._origin(), refused=task.refused)
+
+    def _twice(self, names: Iterable[str]) -> str:
+        """Return a line on each of these functions that the file defines twice."""
+        file = self._file if self._script else self._given
+        return SourceLines(file, self._origin()).twice(names)
 
     def _needed(self, task: Task) -> list[Task]:
         return self._exercise.needed(task) if self._exercise is not None else []
 
+    def _origin(self) -> Origin:
+        return Origin(self._place if self._script else None, self._lost, self._in_parts)
+
     def _attempt(self, task: Task, references: dict | None = None) -> TaskResult:
         file = self._file if self._script else self._given
-        origin = Origin(self._place if self._script else None, self._lost)
+        origin = self._origin()
         known = self._exercise.known if self._exercise else None
         return grade_task(task, file, self._server, self._alone, origin, references, known)
 
@@ -270,16 +288,25 @@ class Submission:
         broken = [self._not_python(parts, *each) for each in defined.left_out]
         if broken:
             what = "Your file" if self._sources is None else "The notebook"
-            self.banner = "\n".join([f"{what} is not Python yet. Mend this first:", *broken])
+            newer = all(NEWER in error for _, _, _, error, _ in defined.left_out)
+            head = "is not Python yet. Mend this first:"
+            if newer:
+                head = "needs a newer Python. This one cannot read:"
+            self.banner = "\n".join([f"{what} {head}", *broken])
         strict = broken and os.environ.get(SYNTAX) == EVERYTHING
         if strict or not _DEFINITION.search(defined.text):
             raise Wrong(_NOT_GRADED)
         self._write(defined)
+        self._in_parts = True
         self.banner += (
             "\nUntil then, only functions, classes and imports count, with the names that they use."
         )
-        if lost := [name for *_, names in defined.left_out for name in names]:
-            self.banner += f"\nLeft out: {', '.join(lost)}."
+        lost = [name for *_, names in defined.left_out for name in names]
+        for name, line, said in _left_out(self._file, self._server, self._origin()):
+            lost.append(name)
+            self._lost[name] = f"{self._place(line)} raised {said}"
+        if lost:
+            self.banner += f"\nLeft out: {', '.join(dict.fromkeys(lost))}."
 
     def _undone(self, place: list) -> str:
         """Return some lines on a name of Python that has been given another value."""
@@ -296,6 +323,8 @@ class Submission:
         lines, where = parts[number - 1].splitlines(), self._at(number, line)
         text = lines[line - 1] if line <= len(lines) else ""
         why = f"{where} is not Python ({error}): mend this line first"
+        if not re.match(r"\w+Error: ", error):
+            why = f"{where}: {error}"
         self._lost |= dict.fromkeys(names, why)
         return f"{marked(where, plain(text.expandtabs(4)), column)}\n  {error}"
 
@@ -351,6 +380,22 @@ def _with_the_cause(lines: list[str], own: str, again: TaskResult) -> str:
     before, told = again.message, again.complete().message
     known = told.startswith((TOLD, VARIED))
     return "\n".join(told if each == before or (known and each == own) else each for each in lines)
+
+
+def _left_out(file: Path, server: ForkServer, origin: Origin) -> list[tuple[str, int, str]]:
+    """Return (name, line, what was raised) of each name that has no value, as the file tells."""
+
+    def left_out(module):
+        return module.__left_out__
+
+    student = Student(file, LOADING_SECONDS, server=server, origin=origin)
+    try:
+        found = student.run(left_out, said="the code outside functions")
+        return [(plain(str(n)), int(line), plain(str(said))) for n, line, said in found[:MOST_LOST]]
+    except (Wrong, MachineFault, TypeError, ValueError):
+        return []
+    finally:
+        student.close()
 
 
 def _trouble(file: Path, server: ForkServer, origin: Origin, tried: bool) -> Wrong | None:

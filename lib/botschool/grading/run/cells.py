@@ -24,7 +24,11 @@ MAX_MAGICS = 100
 """IPython lines in a cell."""
 MAX_JOINED = 30
 """Lines without indentation in one statement, in a cell that is not Python."""
-_STATEMENT = re.compile(r"^(?=[^\s#)\]}])(?!(?:else|elif|except|finally)\b)", re.MULTILINE)
+_STATEMENT = re.compile(
+    r"^(?=[^\s#)\]}])(?!(?:else|elif|except|finally)\b)"
+    r"(?!(?:(?:<{7}|={7}|>{7}|\|{7}).*\n\s*?)+[ \t]+\S)",  # git's mark within a function
+    re.MULTILINE,
+)
 _DEFINED = re.compile(r"^[ \t]*(?:async[ \t]+def|def|class)[ \t]+(\w+)", re.MULTILINE)
 _TEST = re.compile(
     r"^([ \t]*)(from botschool\.grading\.notebook import grade_cell|grade_cell\(.*\))[ \t]*$",
@@ -39,25 +43,29 @@ _GIVES_BUILTIN = re.compile(
     rf"|(?<![:|>] )\b{_NAMES} *(?::?=(?!=)|in\b)|\bas +{_NAMES}",
     re.MULTILINE,
 )
+NEWER = "it needs Python"
+"""How a line's fault begins that a newer Python understands."""
 _NONE, _FIRST, _SECOND = slice(0), slice(1), slice(1, 2)
 _TAKE_FUNCTIONS = {
     "isinstance": _SECOND, "issubclass": _SECOND, "map": _FIRST, "filter": _FIRST, "astype": _FIRST
 }  # fmt: skip
 """Functions and methods -> which of their arguments is a function or a type."""
 _DEFINITIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
-_IMPORT = """
-try:
-    {text}
-except (Exception, SystemExit) as _error:
-    class LeftOut:
-        def __getattr__(self, name, error=_error.with_traceback(None)):
-            raise AttributeError(name) if name.startswith("__") else error
-        def __call__(self, *_, error=_error, **__):
-            raise error
-    {names} = LeftOut()
-    del LeftOut
+_MARKER = re.compile(r"(?:<{7}|={7}|>{7}|\|{7})(?:[ \t].*)?$", re.MULTILINE)
+"""A line that git writes where two versions of a file differ."""
+_RUN = re.compile(r"%run[ \t]+(?:-\w[ \t]+)*(?:\./)?(\w+(?:/\w+)*?)(?:\.py)?[ \t]*$")
+"""IPython's line that runs another file."""
+_QUOTE_AGAIN = r"""\b[rR]?[fF][rR]?(["']).*?\{[^{}]*\1"""
+_TYPES = re.compile(r"[ \t]*except\*? +[\w.]+ *(?:, *[A-Z.\w]+)+ *:")
+_NEWER = (
+    ((3, 12), "", re.compile(r"[ \t]*(?:async +)?(?:def|class) +\w+ *\[|[ \t]*type +\w+ *[\[=]")),
+    ((3, 12), "f-string", re.compile(f".*{_QUOTE_AGAIN}")),
+    ((3, 12), "f-string expression part cannot include", re.compile("")),
+    ((3, 14), "multiple exception types", _TYPES),
+    ((3, 14), "", re.compile(r""".*\b[rR]?[tT][rR]?["']""")),
+)  # fmt: skip
+"""Syntax that later versions of Python have added: version, begin of an older one's message, line.
 """
-"""An import whose names raise its error where they are used, if it fails."""
 
 
 class Unreadable(Exception):
@@ -124,14 +132,11 @@ def definitions(sources: list[str]) -> Script:
     """Return the imports, functions and classes of the cells, and the globals that these use.
 
     Code that only runs (calls, loops, pictures) and statements that are not Python are left out.
-    An import that fails costs only what uses its names.
     """
     script, cells = _read(sources)
     kept = _kept([node for _, body in cells.values() for node in body])
-    script.text, script.places = "from __future__ import annotations\n", [[1, 1]]
     for number, (text, body) in cells.items():
-        changes = [(node, _guarded(node) if id(node) in kept else "pass") for node in body]
-        script.add(number, _replaced(text, [each for each in changes if each[1]]))
+        script.add(number, _without(text, [node for node in body if id(node) not in kept]))
     return script
 
 
@@ -232,17 +237,6 @@ def _called(body: list[ast.stmt]) -> set[str]:
     return found
 
 
-def _guarded(node: ast.stmt) -> str:
-    """Return an import as one line that never fails; "" for any other statement."""
-    if not isinstance(node, (ast.Import, ast.ImportFrom)):
-        return ""
-    if isinstance(node, ast.ImportFrom) and node.module == "__future__":
-        return "pass"
-    names = [each.asname or each.name.partition(".")[0] for each in node.names]
-    bound = " = ".join("_" if name == "*" else name for name in names)
-    return f"exec({_IMPORT.format(text=ast.unparse(node), names=bound)!r})"
-
-
 def plain_python(source: str) -> str:
     """Return a cell without lines that only IPython understands and without lines of test cells."""
     text = _TEST.sub(r"\1pass", source.replace("\r\n", "\n").replace("\r", "\n"))
@@ -258,7 +252,9 @@ def plain_python(source: str) -> str:
                 return text
             line = lines[at - 1]
             indent = line[: len(line) - len(line.lstrip())]
-            lines[at - 1] = f"{indent}pass  # {line.strip()}"
+            file = _RUN.match(line)
+            runs = f"from {file[1].replace('/', '.')} import *" if file else "pass"
+            lines[at - 1] = f"{indent}{runs}  # {line.strip()}"
             text = "\n".join(lines)
     return text
 
@@ -288,12 +284,26 @@ def _without_errors(text: str) -> tuple[str, list[list]]:
         names = _DEFINED.findall(taken)
         error = None if found else _parsed(taken)
         if isinstance(error, SyntaxError) and (names or not cut):  # else it belongs to that before
-            said = f"{type(error).__name__}: {error.msg.partition(' (detected at ')[0]}"
-            broken.append([line + (error.lineno or 1), error.offset or 0, said, names])
+            broken.append(
+                [line + (error.lineno or 1), error.offset or 0, _why(error, taken), names]
+            )
         made, cut = made + (found[1] if found else "\n" * taken.count("\n")), not found
         line += taken.count("\n")
         del pieces[: found[0] if found else 1]
     return made, broken
+
+
+def _why(error: SyntaxError, text: str) -> str:
+    """Return why a text is not Python, in words."""
+    lines = text.split("\n")
+    line = lines[error.lineno - 1] if 0 < (error.lineno or 0) <= len(lines) else ""
+    if _MARKER.match(line):
+        return "git left conflict markers: keep one of the two versions, and remove the marks"
+    for version, message, pattern in _NEWER:
+        if sys.version_info < version and error.msg.startswith(message) and pattern.match(line):
+            this = f"{sys.version_info.major}.{sys.version_info.minor}"
+            return f"{NEWER} {version[0]}.{version[1]}; this is {this}"
+    return f"{type(error).__name__}: {error.msg.partition(' (detected at ')[0]}"
 
 
 def _is_python(text: str) -> bool:
@@ -344,16 +354,16 @@ def _names(node: ast.stmt) -> tuple[set[str], set[str]]:
     return bound, used
 
 
-def _replaced(text: str, changes: list[tuple[ast.stmt, str]]) -> str:
-    """Return a cell with top-level statements replaced by lines; lines keep their numbers."""
+def _without(text: str, nodes: list[ast.stmt]) -> str:
+    """Return a cell with `pass` in place of top-level statements; lines keep their numbers."""
     lines = [line.encode() for line in text.split("\n")]
-    for node, line in reversed(changes):
+    for node in reversed(nodes):
         first, last = node.lineno - 1, node.end_lineno - 1
         before, after = lines[first][: node.col_offset], lines[last][node.end_col_offset :]
         if first == last:
-            lines[first] = before + line.encode() + after
+            lines[first] = before + b"pass" + after
         else:
-            lines[first : last + 1] = [before + line.encode(), *[b""] * (last - first)]
+            lines[first : last + 1] = [before + b"pass", *[b""] * (last - first)]
             lines[last] = after.lstrip(b" \t;")
     return b"\n".join(lines).decode()
 

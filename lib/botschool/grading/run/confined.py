@@ -92,10 +92,11 @@ def start_child(
     limits: Limits,
     references: dict[str, Any] | None = None,
     refused: tuple[str, ...] = (),
+    in_parts: bool = False,
 ) -> Child:
     """Start a child for a submission's file, given by its original path. Raises BotschoolError.
 
-    refused: as in Exercise.task.
+    refused: as in Exercise.task. in_parts: as in sandbox.Child.
     """
     prepare = [source_of(refuse), refuse.__name__, list(refused)] if refused else None
     with translated():
@@ -104,7 +105,8 @@ def start_child(
         places = readable(file, hidden)
         # Python finds a module by the names in its folder
         listed = [p for p in _needed() if any(each.is_relative_to(p) for each in hidden)]
-        return Child(server, scratch, file.name, limits, places, references, prepare, listed)
+        given = places, references, prepare, listed, in_parts
+        return Child(server, scratch, file.name, limits, *given)
 
 
 @functools.cache

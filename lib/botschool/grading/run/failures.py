@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,7 @@ from botschool.sandbox.inside import read_inside
 
 Place = Callable[[int], str]
 """Return words for the learner for a line of the file."""
+_RUNS = re.compile(r"(?:pass)?\s*#?\s*%run\b")
 MAX_LINE = 100
 """Characters to show of a line."""
 MAX_FILE = 2**20
@@ -53,6 +54,8 @@ class Origin:
     """Line of the file -> words for its place; None: use the file's name and the line's number."""
     lost: dict[str, str] = field(default_factory=dict)
     """Name in a part that is not read, mostly of a function -> why."""
+    in_parts: bool = False
+    """Whether a statement that fails costs only what uses its names."""
 
 
 _ADVICE = (
@@ -146,11 +149,37 @@ class SourceLines:
             return set()
         return {path.relative_to(self._file.parent).as_posix() for path in files}
 
+    def runs_another(self) -> str:
+        """Return a line to put below a sentence: the first one that runs another file in IPython.
+
+        "" if there is none. Jupytext makes a comment of such a line.
+        """
+        runs = (n for n, line in enumerate(self.lines(), 1) if _RUNS.match(line))
+        return self.shown(self._file.name, next(runs, None))
+
+    def without_folder(self, printed: str, folder: str) -> str:
+        """Return what the submission printed, with its own words for places in its folder."""
+        place = re.compile(rf"{re.escape(folder)}/([^\s:]+\.py):(\d{{1,7}})")
+        text = place.sub(lambda found: self.at(found[1], int(found[2]))[0], printed)
+        return text.replace(f"{folder}/", "")
+
     def defined(self, name: str) -> int | None:
         """Return the line where a function or class of this name begins, indented or not."""
         pattern = re.compile(rf"\s*(async\s+def|def|class)\s+{re.escape(name)}\b")
         found = [n for n, line in enumerate(self.lines(), 1) if pattern.match(line)]
         return found[0] if found else None
+
+    def twice(self, names: Iterable[str]) -> str:
+        """Return a line for each of these functions that the file defines more than once."""
+        text = "\n".join(self.lines())
+        lines = ""
+        for name in names:
+            pattern = re.compile(rf"^(?:async +def|def|class) +{re.escape(name)}\b", re.MULTILINE)
+            places = [text.count("\n", 0, each.start()) + 1 for each in pattern.finditer(text)]
+            if len(places) > 1:
+                first, last = (self.at(self._file.name, places[i])[0] for i in (0, -1))
+                lines += f"\n  {name} is defined more than once: {last} counts, not {first}."
+        return lines
 
 
 def explained(answer: dict[str, Any], said: str, source: SourceLines) -> Wrong:
@@ -235,6 +264,8 @@ def _missing(name: str, near: str, source: SourceLines) -> str:
         return f"{text}: there is one at {where}, but {why}."
     if near:
         return f"{text}; there is {near}: give it the name {name} again."
+    if where := source.runs_another():
+        return f"{text}.{where}\n  This line is left out: write `from FILE import {name}`."
     return f"{text}: its name must be as the exercise's file gives it."
 
 

@@ -91,7 +91,8 @@ class Student:
         self.rewired: Rewired | None = None
         """The robot of the last request, with its record of what was evaluated."""
         self._references = references
-        self._source = SourceLines(self._file, origin or Origin())
+        self._origin = origin or Origin()
+        self._source = SourceLines(self._file, self._origin)
         self._scratch = scratch_copy(self._file)
         self._server = server
         self._own: ForkServer | None = None
@@ -173,7 +174,8 @@ class Student:
     @property
     def printed(self) -> str:
         """Return the beginning of what the submission has printed."""
-        return self._printed + (self._child.printed() if self._child else "")
+        text = self._printed + (self._child.printed() if self._child else "")
+        return self._source.without_folder(text, str(self._scratch.folder))
 
     @property
     def seconds_left(self) -> float:
@@ -218,9 +220,8 @@ class Student:
             if self._server is None:
                 self._server = self._own = fork_server()
             limits = Limits(self.seconds_left + self._later, self._memory)
-            self._child = start_child(
-                self._server, self._scratch, self._file, limits, self._references, self._refused
-            )
+            given = self._references, self._refused, self._origin.in_parts
+            self._child = start_child(self._server, self._scratch, self._file, limits, *given)
             self.missing = self._child.missing
         try:
             answer = self._answer_to(request)
