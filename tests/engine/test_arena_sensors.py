@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from botschool import arena
 from botschool.arenas import samples
 from botschool.errors import BotschoolError
-from reference_arena import KHEPERA, MARXBOT, off
+from reference_arena import off
 from reference_network import REPEATABLE
 from test_arena import reference, refused
 
@@ -58,41 +58,6 @@ def test_random_places_follow_the_reference(name):
     )
     assert np.all((infrared > 0.01).mean(axis=0) > 0.02)
     assert np.any(infrared == 1) == (name == "discrim")
-
-
-def test_infrared_of_a_wall_by_hand():
-    """A Khepera 10 mm before the upper wall, facing it."""
-    own = arena.make("discrim", noise=0)
-    own.objects[0, :2] = 50, 50
-    own.robots[0] = 200, 400 - 27.5 - 10, PI / 2
-    for reading, direction, gain in zip(
-        own.sense(), KHEPERA.directions, KHEPERA.gains, strict=True
-    ):
-        delta = min(direction, 360 - direction) * PI / 180
-        fading = math.exp(-10 / 5.24) * math.exp(-((delta / 0.487) ** 2))
-        assert reading == pytest.approx(min(1, gain * fading), **NEAR)
-
-
-def test_infrared_of_a_cylinder_by_hand():
-    own = arena.make("discrim", noise=0)
-    own.objects[0] = 200 + 27.5 + 20 + 8, 200, 0, 0, 8
-    own.robots[0] = 200, 200, 0
-    for reading, direction, gain in zip(
-        own.sense(), KHEPERA.directions, KHEPERA.gains, strict=True
-    ):
-        delta = min(direction, 360 - direction) * PI / 180
-        fading = math.exp(-20 / 4.23) * math.exp(-((delta / 0.308) ** 2))
-        assert reading == pytest.approx(min(1, gain * fading), **NEAR)
-
-
-def test_infrared_of_a_robot_by_hand():
-    """The prey 50 mm to the left of a predator that looks up: at 90 degrees."""
-    own = arena.make("predprey")
-    own.robots[:] = (1500, 1500, PI / 2), (1500 - 220, 1500, 0)
-    for reading, direction in zip(own.sense()[:8], MARXBOT.directions, strict=True):
-        delta = off(PI / 2, math.radians(direction))
-        fading = math.exp(-((50 / 39.2) ** 1.5)) * math.exp(-((delta / 0.583) ** 2.6))
-        assert reading == pytest.approx(0.935 * fading, **NEAR)
 
 
 def test_infrared_ends_at_its_range_and_sums_objects():
@@ -173,16 +138,6 @@ def written(folder, text):
     return path
 
 
-def test_a_table_is_read(tmp_path):
-    readings = table()
-    read = samples.load(written(tmp_path, text_of(readings)))
-    assert np.array_equal(read.readings, readings) and (read.first, read.step) == (5, 10)
-    raw = np.floor(readings * 1023)
-    for text in (text_of(raw), text_of(raw, first=1), text_of(raw).replace("\n", "\r\n\r\n")):
-        read = samples.load(written(tmp_path, text))
-        assert read.readings == pytest.approx(raw / 1023, abs=1e-15)
-
-
 def test_a_robot_reads_from_the_table(tmp_path):
     """The nearest angle and distance; nothing half a step past the last."""
     readings = table()
@@ -196,21 +151,6 @@ def test_a_robot_reads_from_the_table(tmp_path):
             own.objects[0, :2] = 200 + far * math.cos(towards), 200 + far * math.sin(towards)
             expected = np.zeros(8) if row is None else readings[row, round(angle / 30) % ANGLES]
             assert own.sense() == pytest.approx(expected, **NEAR), (angle, gap)
-
-
-def test_tables_of_walls_and_of_robots(tmp_path):
-    readings = table()
-    path = written(tmp_path, text_of(readings))
-    own = arena.make("discrim", noise=0, wall_table=path)
-    own.objects[0, :2] = 40, 40
-    own.robots[0] = 200, 400 - 27.5 - 16, PI  # the wall is 90 degrees to the right: 270
-    assert own.sense() == pytest.approx(readings[1, 9], **NEAR)
-    both = arena.make("predprey", wall_table=path, round_table=path)
-    both.robots[:] = (85 + 4, 1500, 0), (85 + 4 + 170 + 25, 1500, PI)
-    first, second = np.split(both.sense(), 2)
-    expected = np.minimum(readings[0, 6] + readings[2, 0], 1)  # the wall behind, the prey ahead
-    assert first[:8] == pytest.approx(expected, **NEAR)
-    assert second[:8] == pytest.approx(readings[2, 0], **NEAR)
 
 
 GOOD = text_of(table())
@@ -249,14 +189,6 @@ def test_malformed_tables_are_refused(text, words, tmp_path):
     path = written(tmp_path, text)
     refused(lambda: samples.load(path), "own.sample", *words)
     refused(lambda: arena.make("discrim", wall_table=path), *words)
-
-
-def test_what_is_no_file(tmp_path):
-    path = tmp_path / "binary.sample"
-    path.write_bytes(b"\xff\xfe\x00\x80")
-    for bad in (path, tmp_path, tmp_path / "none.sample"):
-        refused(lambda bad=bad: samples.load(bad), str(bad))
-    refused(lambda: samples.load(3.5), "path")
 
 
 @REPEATABLE

@@ -72,15 +72,6 @@ def test_sensors_follow_the_reference(seed, beams, angle, reach, half):
     assert seen == pytest.approx(expected, **NEAR)
 
 
-def test_sensors_have_something_to_see():
-    """Or the test before would compare zeros."""
-    own = arena.make(FULL)
-    seen = np.array([own.reset(seed=seed).copy() for seed in range(300)])
-    zero = np.flatnonzero(np.ptp(seen, axis=0) == 0)
-    size = FULL.core.observations
-    assert set(zero % size) == {size - 1, size - 2}  # time and bias
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("reward", REWARDS)
 def test_rewards_follow_the_reference(reward):
@@ -107,57 +98,7 @@ def test_rewards_follow_the_reference(reward):
     assert len(set(rewards)) > 1
 
 
-def test_a_laser_by_hand():
-    own = arena.make(Plan(sensors="laser", laser_beams=3, laser_angle=180, laser_range=400))
-    own.robots[0] = 100, 200, 0  # right, ahead, left
-    edges = np.array([200, 300, 200]) - 27.5
-    assert own.sense() == pytest.approx(1 - edges / 400, **NEAR)
-
-
-def test_lights_by_hand():
-    """Full ahead at the distance where it is half as bright; behind nothing; sums end at 1."""
-    own = arena.make(Plan(width=900, lights=[Light(500, 200)] * 3, sensors="light"))
-    own.robots[0] = 300, 200, 0
-    assert own.sense()[0] == 1 and not own.observation[3:6].any()
-    own.lights[1:] = 300 + 200 * 3, 200
-    half, tenth = 1 / 2, 1 / 10
-    assert own.sense()[[0, 1, 7]] == pytest.approx(
-        np.array([1, 0.5**0.5, 0.5**0.5]) * (half + 2 * tenth), **NEAR
-    )
-
-
-def test_noise_is_on_all_readings_but_time_and_bias():
-    plan = dataclasses.replace(FULL, noise=0.1)
-    still, noisy = (arena.make(p, max_steps=10**5) for p in (FULL, plan))
-    gaps = []
-    for own in (still, noisy):
-        own.reset(seed=4)
-        own.action = np.zeros(6)
-        seen = []
-        for _ in range(400):
-            own.step()
-            seen.append(own.observation.reshape(3, -1).copy())
-        gaps.append(np.array(seen))
-    gap = gaps[1] - gaps[0]
-    assert not gap[:, :, -1].any() and np.abs(gap[:, :, -2]).max() == 0
-    rest = gap[:, :, :-2].reshape(400, -1)
-    assert rest.std(axis=0) == pytest.approx(0.1, rel=0.2)
-    correlation = np.corrcoef(rest.T) - np.eye(rest.shape[1])
-    assert np.abs(correlation).max() < 0.25  # each has draws of its own
-
-
 # collisions, starts, ends
-
-
-def test_collisions_block_or_end():
-    for collisions in ("block", "end"):
-        own = arena.make(Plan(collisions=collisions, steps=50))
-        own.robots[0] = 360, 200, 0
-        own.action = 1, 1
-        assert own.step() == 0
-        assert own.robots[0].tolist() == [360, 200, 0]
-        assert own.terminated == (collisions == "end")
-        assert own.max_steps == 50
 
 
 def test_starts_are_drawn_within_their_ranges_and_fit():
@@ -229,15 +170,6 @@ def test_an_episode_is_that_of_the_arena_by_hand():
         own.action = step.action
         assert own.step() == step.reward
         assert np.array_equal(own.state, step.state)
-
-
-def test_an_engine_refuses_another_arena():
-    policy = policy_of(FULL)
-    problem = NativeProblem("ErArena", plan=FULL)
-    engine = problem.engine(policy)
-    for options in (None, _core.ArenaOptions(declaration=Plan().core)):
-        with pytest.raises(ValueError, match="another arena"):
-            engine.record(policy.initial(1)[None], None, 1, 1, 10, False, options)
 
 
 ARENA = """
@@ -321,17 +253,6 @@ def test_pictures_show_what_is_declared():
         assert (frame(less, own.state) != full).sum() > 100
     blind = make_scene("ErArena", FULL.models, FULL).draw(own.state, own.action)
     assert (blind != full).sum() > 1000
-
-
-def test_visited_cells_are_drawn():
-    plan = Plan(reward="explore")
-    own = arena.make(plan)
-    scene = make_scene("ErArena", plan.models, plan)
-    start = scene.numbers(own.state)
-    own.action = 1, 1
-    for _ in range(100):
-        own.step()
-    assert start[:64].sum() == 1 and 1 < scene.numbers(own.state)[:64].sum() < 64
 
 
 def test_the_gymnasium_face(tmp_path):

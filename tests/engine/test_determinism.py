@@ -4,7 +4,6 @@ not show in its files. Compared are all files, bit for bit, but for TensorBoard'
 import os
 import random
 import signal
-import subprocess
 import sys
 
 import numpy as np
@@ -64,17 +63,6 @@ def test_worker_processes_do_not_show(tmp_path):
         assert run_seeds(own, tmp_path / f"{algo}-1")
         assert run_seeds(own, tmp_path / f"{algo}-{workers}", workers=workers)
         assert same(tmp_path / f"{algo}-1", tmp_path / f"{algo}-{workers}")
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("algo", ALGORITHMS)
-@pytest.mark.parametrize("environment", [TINY, "LunarLander-v3", "MountainCar-v0", "FrozenLake-v1"])
-def test_worker_processes_do_not_show_in_longer_runs(environment, algo, tmp_path):
-    own = small(tmp_path, environment, algo, maxmsteps=0.02)
-    for workers in (1, 2, 5):
-        assert run_seeds(own, tmp_path / str(workers), workers=workers)
-    assert same(tmp_path / "1", tmp_path / "2")
-    assert same(tmp_path / "1", tmp_path / "5")
 
 
 @pytest.mark.parametrize("algo", ALGORITHMS)
@@ -276,23 +264,6 @@ def test_ctrl_c_saves_and_does_not_show(environment, workers, number, whom, tmp_
 
 @pytest.mark.slow
 @posix
-def test_ctrl_c_while_workers_start_is_quiet(tmp_path):
-    """It reaches them too, in a terminal."""
-    write_experiment(tmp_path, TINY, "SSS", maxmsteps=1)
-    process = start(
-        *command_of(tmp_path / "own.ini", tmp_path / "stopped", "-w", 3), start_new_session=True
-    )
-    main = psutil.Process(process.pid)
-    while len(main.children()) < 3:  # the first of its processes are just being made
-        assert process.poll() is None
-    os.killpg(process.pid, signal.SIGINT)
-    code, out, errors = finish(process)
-    assert (code, errors) == (130, "")
-    assert "all is saved" in out
-
-
-@pytest.mark.slow
-@posix
 def test_workers_never_hear_ctrl_c(tmp_path):
     """Not even while they start, when Python's own handler would end them with a traceback."""
     write_experiment(tmp_path, TINY, "SSS", maxmsteps=0.005)
@@ -326,21 +297,6 @@ def test_a_second_ctrl_c_ends_at_once_and_harms_nothing(tmp_path):
     assert run_seeds(own, tmp_path / "stopped", [3], steps=steps, resume=True)
     assert run_seeds(own, tmp_path / "undisturbed", [3], steps=steps)
     assert same(tmp_path / "undisturbed", tmp_path / "stopped")
-
-
-@pytest.mark.slow
-@posix
-def test_a_second_request_is_not_discussed():
-    program = (
-        "import os, signal\nfrom botschool.terminal import stoppable\n"
-        "with stoppable() as stopping:\n"
-        "    os.kill(os.getpid(), signal.SIGTERM)\n"
-        "    print(stopping(), flush=True)\n"
-        "    os.kill(os.getpid(), signal.SIGINT)\n"
-        "    print('still here', flush=True)\n"
-    )
-    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
-    assert (ended.returncode, ended.stdout, ended.stderr) == (130, "True\n", "")
 
 
 @pytest.mark.slow

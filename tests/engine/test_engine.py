@@ -1,9 +1,7 @@
 """Fitness is a pure function of genotype, normalisation, problem, seed and episode: the same bits
 whoever computes it."""
 
-import itertools
 import threading
-import time
 
 import numpy as np
 import pytest
@@ -123,15 +121,6 @@ def self_reversed(rows):
     return np.ascontiguousarray(rows[::-1])
 
 
-@pytest.mark.parametrize("name", INFOS)
-def test_default_is_the_best_instruction_set(name):
-    policy = policy_of(name)
-    batch = Batch(policy)
-    default = _core.Engine(name, policy.spec.core())
-    best = _core.Engine(name, policy.spec.core(), _core.instruction_sets()[-1])
-    assert same(batch.evaluate(default), batch.evaluate(best))
-
-
 @REPEATABLE
 @given(st.lists(st.tuples(st.integers(0, 3), st.integers(0, 5)), max_size=70), st.integers(1, 4))
 def test_any_batch_is_made_of_single_episodes(pairs, threads):
@@ -215,59 +204,6 @@ def replay(name, tape, seed, episode, body):
         assert tape["observations"][t] == pytest.approx(stepper.observation, **near)
         assert stepper.step(action)[0] == tape["rewards"][t]
         assert np.array_equal(stepper.state, tape["states"][t + 1])
-
-
-def test_moments_are_zero_where_none_were_wanted():
-    policy = policy_of("Pendulum-v1")
-    batch = Batch(policy)
-    _, steps, moments = batch.evaluate(_core.Engine("Pendulum-v1", policy.spec.core()))
-    wanted = batch.episodes.collect.astype(bool)
-    assert 0 < wanted.sum() < len(wanted)
-    assert not moments[~wanted].any() and np.all(moments[wanted][:, 3:] > 0)
-    # cos^2 + sin^2 = 1 at every step
-    assert moments[wanted][:, 3:5].sum(axis=1) == pytest.approx(steps[wanted], rel=1e-6)
-
-
-def test_other_seeds_and_episodes_differ():
-    policy = policy_of("Pendulum-v1")
-    engine = _core.Engine("Pendulum-v1", policy.spec.core())
-    seeds = np.array([0, 1, 2**32, 2**64 - 1, 2**63], dtype=np.uint64)
-    episodes = np.array([0, 1, 2**31, 2**32 - 1], dtype=np.uint32)
-    pairs = list(itertools.product(seeds, episodes))
-    fitness, _, _ = engine.evaluate(
-        policy.initial(1)[None],
-        None,
-        np.zeros((1, len(pairs)), np.int32),
-        np.array([s for s, _ in pairs]),
-        np.array([e for _, e in pairs]),
-        None,
-        200,
-        1,
-    )
-    assert len(np.unique(fitness)) == len(pairs)
-
-
-@pytest.mark.slow
-def test_python_goes_on_during_an_evaluation():
-    policy = policy_of("Acrobot-v1")
-    engine = _core.Engine("Acrobot-v1", policy.spec.core())
-    n = 20_000
-    done, ticks = threading.Event(), 0
-
-    def work():
-        engine.evaluate(
-            np.zeros((1, policy.genotype_size)), None, np.zeros((1, n), np.int32),
-            np.arange(n, dtype=np.uint64), np.zeros(n, np.uint32), None, 500, 1,
-        )  # fmt: skip
-        done.set()
-
-    thread = threading.Thread(target=work)
-    thread.start()
-    while not done.is_set():
-        time.sleep(0.001)
-        ticks += 1
-    thread.join()
-    assert ticks >= 10  # 1 or 2 if the evaluation kept the interpreter to itself
 
 
 @pytest.mark.slow

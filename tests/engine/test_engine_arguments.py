@@ -1,10 +1,5 @@
 """No argument crashes the engine: it raises, or it does what was asked."""
 
-import os
-import subprocess
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -83,33 +78,6 @@ def test_other_types_are_refused_or_converted(name, dtype):
     except (ValueError, TypeError):
         return
     assert same(result, engine.evaluate(**good))
-
-
-def test_many_threads_cost_nothing_for_few_episodes():
-    policy = policy_of("CartPole-v1", "recurrent")
-    engine = _core.Engine("CartPole-v1", policy.spec.core())
-    good = good_arguments(policy)
-    assert same(engine.evaluate(**(good | {"threads": 2**31 - 1})), engine.evaluate(**good))
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(sys.platform != "linux", reason="needs a limit on address space")
-def test_fewer_threads_do_when_the_system_gives_no_more():
-    script = """
-import resource
-import numpy as np
-from test_engine import Batch, policy_of, same, _core
-policy = policy_of("CartPole-v1")
-batch, engine = Batch(policy), _core.Engine("CartPole-v1", policy.spec.core())
-expected = batch.evaluate(engine)
-used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
-resource.setrlimit(resource.RLIMIT_AS, (used + 2**26, resource.RLIM_INFINITY))
-assert same(batch.evaluate(engine, threads=45), expected)
-"""
-    path = os.pathsep.join([str(Path(__file__).parent), *sys.path])
-    subprocess.run(
-        [sys.executable, "-c", script], check=True, env=os.environ | {"PYTHONPATH": path}
-    )
 
 
 def test_empty_batch():

@@ -165,33 +165,6 @@ def test_activations_at_their_edges(kind):
         assert network.step()[0] == pytest.approx(expected, rel=1e-14, abs=1e-300)
 
 
-def test_relu_of_what_is_no_number():
-    """NaN stays NaN, as with other activations, and infinity is not limited."""
-    network = Network(NetworkSpec(inputs=1, outputs=1, nhiddens=1, afunction=5, out_type=5))
-    for x, expected in ((np.nan, np.nan), (np.inf, np.inf), (-np.inf, 0.0), (-0.0, 0.0)):
-        network.parameters[:] = 1
-        network.observation[:] = x
-        network.step()
-        assert network.activations[1:].tolist() == pytest.approx([expected] * 2, nan_ok=True)
-
-
-def test_the_first_bin_wins_ties():
-    spec = NetworkSpec(inputs=1, outputs=2, nhiddens=0, nbins=3, low=-2, high=4, bias=1, out_type=3)
-    network = Network(spec)
-    cases = {
-        (0, 0, 0): -2,
-        (1, 1, 0): -2,
-        (0, 1, 1): 1,
-        (0, 0, 2): 4,
-        (3, 1, 3): -2,
-        (-2, -1, -1): 1,
-    }
-    for left, action in cases.items():
-        for right, other in cases.items():
-            network.parameters[:6] = left + right
-            assert network.step().tolist() == [action, other]
-
-
 def test_clip_and_normalisation():
     network = Network(NetworkSpec(inputs=2, outputs=1, nhiddens=0, normalize=1, clip=1))
     network.normalisation = [1, -2, 0.5, 10]
@@ -205,14 +178,6 @@ def test_clip_and_normalisation():
         network.observation = observation
         network.step()
         assert network.activations[:2] == pytest.approx(seen, abs=1e-15)
-
-
-def test_clip_without_normalisation():
-    for clip, seen in ((0, (7, -1e9, 4.5)), (1, (5, -5, 4.5))):
-        network = Network(NetworkSpec(inputs=3, outputs=1, nhiddens=0, clip=clip))
-        network.observation = (7, -1e9, 4.5)
-        network.step()
-        assert network.activations[:3].tolist() == list(seen)
 
 
 # Every architecture with every activation of outputs, and inputs as they come, clipped, normalised.
@@ -305,20 +270,6 @@ def test_action_noise_is_gaussian(kind, deviations):
     assert within == pytest.approx(0.6827, abs=0.02)
 
 
-@pytest.mark.parametrize("architecture", [0, 1, 2, 3])
-@pytest.mark.parametrize("kind", [1, 2])
-def test_noise_is_on_the_action_alone(kind, architecture):
-    noisy = noisy_network(kind, architecture=architecture)
-    quiet = noisy_network(0, architecture=architecture)
-    quiet.parameters[:] = noisy.parameters[: len(quiet.parameters)]
-    for _ in range(5):
-        noisy.step()
-        quiet.step()
-        assert np.array_equal(noisy.activations, quiet.activations)
-        assert np.all(noisy.action != quiet.action)
-        assert np.array_equal(quiet.action, quiet.activations[-3:])
-
-
 def test_noise_is_a_function_of_seed_episode_and_step():
     network, draws = noisy_network(1), set()
     for seed, episode in [(1, 0), (1, 1), (2, 0), (2**64 - 1, 0), (2**32, 2**32 - 1)]:
@@ -334,24 +285,6 @@ def test_noise_is_a_function_of_seed_episode_and_step():
         assert np.array_equal(noise_of(other, 10), noise)
         draws |= set(noise.ravel().tolist())
     assert len(draws) == 5 * 10 * 3
-
-
-def test_noise_of_size_zero_is_none():
-    assert not noise_of(noisy_network(1, action_noise_range=0), 10).any()
-
-
-def test_noise_is_added_to_the_chosen_bin():
-    network = noisy_network(1, action_noise_range=0.01, nbins=3, low=-1, high=1)
-    clean = np.round(network.step() * 1).copy()
-    assert set(clean.tolist()) <= {-1, 0, 1}
-    assert np.all(np.abs(network.action - clean) < 0.06)
-    assert np.all(network.action != clean)
-
-
-def test_moments_start_as_if_nothing_had_to_change():
-    moments = _core.Moments(3)
-    assert moments.state.tolist() == [0.01] + [0] * 3 + [0.01] * 3
-    assert moments.vectors().tolist() == [0] * 3 + [1] * 3
 
 
 def test_moments_follow_the_rules():

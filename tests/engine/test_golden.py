@@ -238,13 +238,6 @@ def test_results_call_no_function_whose_bits_differ_between_processors(room):
     assert found and {name: calls for name, calls in found.items() if calls} == {}
 
 
-@pytest.mark.parametrize(
-    "line", ["x ** 2", "np.exp(x)", "math.pow(x, 2)", "np.log(x)", "0.5 ** n", "math.hypot(x, y)"]
-)
-def test_such_functions_are_seen(line):
-    assert calls_of_the_c_library(line)
-
-
 @pytest.mark.slow
 @pytest.mark.skipif(
     not (sys.platform == "linux" and platform.machine() == "x86_64"),

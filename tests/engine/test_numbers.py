@@ -69,12 +69,6 @@ def test_logarithms_are_right_to_the_last_place():
     assert (np.abs(logarithms(u) - exact) <= np.spacing(np.abs(exact))).all()
 
 
-@SAME
-def test_logarithms_are_the_system_s():
-    u = arguments()
-    assert logarithms(u).tolist() == [math.log1p(-each) for each in u.tolist()]
-
-
 @pytest.mark.slow
 @SAME
 @given(WORDS, WORDS, st.lists(CALLS, max_size=8))
@@ -91,21 +85,6 @@ def test_calls_give_what_numpy_gives(seed, generation, calls):
     assert (again.standard_normal(600) == ours.standard_normal(600)).all()
 
 
-def test_known_draws_in_the_tail():
-    """The first beyond the last layer: these bits on any system."""
-    drawn = generator(1, 0).standard_normal(100_000)
-    tail = drawn[np.abs(drawn) > 3.654152885361009]
-    assert [each.hex() for each in tail[:4].tolist()] == TAIL
-
-
-TAIL = [
-    "-0x1.dd47dab6f4b29p+1",
-    "0x1.f10c812c52103p+1",
-    "0x1.1e744ceb2c4b4p+2",
-    "0x1.2a1f42e632553p+2",
-]
-
-
 def test_wrong_arguments_are_refused():
     numbers = generator(1, 0)
     for wrong in (0, -1, [3, 0]):
@@ -118,14 +97,6 @@ def test_wrong_arguments_are_refused():
     with pytest.raises(ValueError):
         numbers.place = (1, 0, 0, 2**32)
     assert numbers.standard_normal(3, dtype=np.float32).dtype == np.float32
-
-
-@SAME
-@pytest.mark.long
-def test_a_hundred_million_draws_are_numpy_s():
-    for seed in range(100):
-        ours = generator(seed, 7).standard_normal(1_000_000)
-        assert (ours == numpy_s(seed, 7).standard_normal(1_000_000)).all()
 
 
 @built

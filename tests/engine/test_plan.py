@@ -1,8 +1,6 @@
 """Plans of declared arenas: what they are in files and in Python, and what cannot be."""
 
-import copy
 import dataclasses
-import pickle
 
 import pytest
 from hypothesis import given
@@ -10,7 +8,7 @@ from hypothesis import strategies as st
 
 from botschool import arena, config, problems
 from botschool.arenas.plan import Cylinder, Light, Plan, Robot, Wall, Zone
-from botschool.arenas.section import REWARDS, WORDS, ArenaConfig
+from botschool.arenas.section import ArenaConfig
 from botschool.errors import BotschoolError
 from reference_network import REPEATABLE
 from running import write_experiment
@@ -58,11 +56,6 @@ def test_without_a_section_there_is_one_khepera(tmp_path):
     experiment = config.load(file_of(tmp_path, ""))
     assert experiment.plan == Plan() == Plan(robots=[Robot("Khepera")])
     assert [model.name for model in problems.make("ErArena").robots] == ["Khepera"]
-
-
-def test_the_words_of_python_are_those_of_the_core():
-    assert list(REWARDS) == WORDS["rewards"]
-    assert WORDS["robots"] == 4 and WORDS["cylinders"] == 8
 
 
 NUMBERS = st.one_of(st.integers(0, 400), st.floats(0, 400))
@@ -124,18 +117,6 @@ def test_what_cannot_be_is_refused_with_its_line(text, line, says, tmp_path, ref
     assert [file.name for file in tmp_path.iterdir()] == ["own.ini"]
 
 
-def test_what_else_a_file_cannot_say(tmp_path, refused):
-    path = file_of(tmp_path, TEXT)
-    whole = path.read_text()
-    path.write_text(whole.replace("nrobots = 2", "nrobots = 1"))
-    refused("es", "-f", path, "-o", tmp_path, says="set nrobots = 2")
-    path.write_text(whole.replace("ErArena", "ErDiscrim"))
-    refused("es", "-f", path, "-o", tmp_path, says=["[ARENA]", "environment = ErArena"])
-    for line in ("robots = e-puck", "wrappers = FlattenObservation"):
-        path.write_text(whole.replace("algo =", f"{line}\nalgo ="))
-        refused("es", "-f", path, "-o", tmp_path, says="arena" if "wr" in line else "its plan")
-
-
 def test_what_python_cannot_declare():
     refused_ = [
         (lambda: Plan(robots=[Robot(x=5)]), "robot1 stands outside"),
@@ -153,12 +134,6 @@ def test_what_python_cannot_declare():
     ]
     for call, words in refused_:
         refused(call, words)
-
-
-def test_plans_can_be_copied():
-    copied = pickle.loads(pickle.dumps(PLAN))
-    assert copied == copy.deepcopy(PLAN) == PLAN
-    assert copied.core.observations == PLAN.core.observations == 16
 
 
 def test_every_field_of_a_plan_is_a_key_of_the_section():

@@ -9,7 +9,7 @@ import pytest
 
 from botschool import _core
 from botschool.envs.morphology import MORPHOLOGY_SIZE, decode
-from test_planar_dynamics import Moving, full_mass_matrix, mjcf, turned
+from test_planar_dynamics import full_mass_matrix, mjcf
 
 G = 10.0
 BODIES = 0.6 * np.random.default_rng(1).normal(size=(3, MORPHOLOGY_SIZE))
@@ -78,86 +78,3 @@ def test_accelerations_and_mass_matrix_are_those_of_mujoco(number):
         assert np.abs(ours - theirs).max() <= 1e-9 * np.abs(theirs).max()
         acceleration = np.linalg.solve(form, chain.accelerations(form @ q, form @ v, action, G))
         assert np.abs(acceleration - data.qacc).max() <= 1e-9 * np.abs(data.qacc).max()
-
-
-class Chain(Moving):
-    """A chain that is simulated, with its state at hand."""
-
-    def __init__(self, parameters, height=5.0):
-        angles = np.cumsum(start_angles(parameters))
-        super().__init__(parameters, angles, height, gravity=G)
-
-    def lift(self, gap):
-        """So that the lowest ball is `gap` above the ground."""
-        heights = [
-            (origin + turned(x, z, self.q[2 + rod]))[1] - radius
-            for rod, x, z, radius in self.body.table["contacts"]
-            for origin in [self.origins()[rod]]
-        ]
-        self.q[1] += gap - min(heights)
-
-
-def test_momentum_is_kept_in_flight():
-    """While motors and limits work, but for an error of second order in the substep."""
-    for p in BODIES:
-        errors = []
-        for h in (0.001, 0.00025):
-            flying = Chain(p, height=100.0)
-            rng = np.random.default_rng(3)
-            flying.v[:] = rng.normal(0, 1, flying.body.size)
-            flying.advance(h, round(0.02 / h))
-            start, worst = flying.momentum(), 0.0
-            weight = flying.masses[:, 0].sum() * G
-            for k in range(1, 51):
-                flying.advance(h, round(0.02 / h), rng.uniform(-0.3, 0.3, RODS - 1))
-                fallen = np.array([0, -weight * 0.02 * k, 0])
-                lost = np.abs(flying.momentum() - start - fallen).max()
-                worst = max(worst, lost / np.abs(start).max())
-            errors.append(worst)
-        assert errors[0] < 0.05 and errors[1] < 0.005 and errors[0] > 6 * errors[1]
-
-
-def test_a_stick_rests_on_the_ground_and_slides_from_its_friction_angle_on():
-    lying = Chain(STRAIGHT, height=0.11)
-    lying.advance(0.001, 2000)
-    there = lying.q.copy()
-    assert np.abs(lying.v).max() < 1e-3
-    lying.advance(0.001, 2000)
-    assert lying.q == pytest.approx(there, abs=1e-4)
-    assert lying.load.sum() == pytest.approx(lying.masses[:, 0].sum() * G, rel=1e-3)
-    for share, slides in ((0.9, False), (1.1, True)):  # friction is 2.5
-        angle = math.atan(2.5 * share)
-        lying = Chain(STRAIGHT, height=0.1 / math.cos(angle))
-        lying.q[2:] = angle
-        lying.advance(0.001, 500, slope=2.5 * share)
-        before = lying.v[:2].copy()
-        lying.advance(0.001, 500, slope=2.5 * share)
-        gain = np.hypot(*lying.v[:2]) - np.hypot(*before)
-        down = G * (math.sin(angle) - 2.5 * math.cos(angle))
-        assert gain / 0.5 == pytest.approx(down if slides else 0, abs=0.05)
-
-
-def test_a_fall_loses_energy():
-    for p in BODIES:
-        falling = Chain(p)
-        falling.lift(3.0)
-        start = falling.energy()
-        for _ in range(300):
-            falling.advance(0.001, 10)
-            assert falling.energy() < start * 1.02
-        assert falling.energy() < 0.5 * start
-
-
-def test_half_the_substep_stays_near():
-    """Positions of twelve bodies after 0.4 s of work on the ground, against an eighth of it."""
-    errors = []
-    for p in 0.6 * np.random.default_rng(5).normal(size=(12, MORPHOLOGY_SIZE)):
-        ends = []
-        for part in (1, 2, 8):
-            body = Chain(p)
-            body.lift(0.1)
-            body.advance(0.001 / part, 400 * part, np.full(RODS - 1, 0.05))
-            ends.append(body.q)
-        errors.append([np.abs(end - ends[2]).max() for end in ends[:2]])
-    whole, half = np.median(errors, axis=0)
-    assert half < whole < 0.02 and np.max(errors) < 0.2

@@ -174,22 +174,6 @@ def test_parameters_and_inputs_are_read_in_place():
         inputs[0] += 1
 
 
-def test_another_array_takes_the_place_of_the_first():
-    network = build()
-    inputs, outputs, _, parameters = hand_over(network)
-    inputs[:] = 1
-    network.updateNet()
-    first = outputs.copy()
-    other, others = np.zeros(2, np.float32), parameters / 2
-    network.copyOutput(other)
-    network.copyGenotype(others)
-    network.resetNet()
-    network.updateNet()
-    assert np.array_equal(outputs, first)
-    expected = ReferenceNetwork(network.spec, others).step(inputs)[0]
-    assert other == pytest.approx(expected, rel=1e-6)
-
-
 def garbage():
     """Takes the place of memory that was given back, had it been."""
     return [np.full(n, np.nan) for n in range(1, 300) for _ in range(4)]
@@ -219,25 +203,6 @@ def test_arrays_are_kept_alive():
     assert run(True).any()
 
 
-def test_arrays_live_no_longer_than_the_network():
-    class Watched(np.ndarray):
-        alive = 0
-
-        def __del__(self):
-            Watched.alive -= 1
-
-    network = build()
-    parameters = np.zeros(NPARAMETERS).view(Watched)
-    Watched.alive = 1
-    network.copyGenotype(parameters)
-    del parameters
-    gc.collect()
-    assert Watched.alive == 1
-    del network
-    gc.collect()
-    assert Watched.alive == 0
-
-
 @pytest.mark.parametrize("name", ARGUMENTS)
 def test_every_argument_is_checked(name):
     words = re.compile(f"{name}|{ALSO_CALLED.get(name, name)}|layer|connections")
@@ -251,31 +216,6 @@ def test_every_argument_is_checked(name):
         assert is_a_sentence(error), error.value
     number = ARGUMENTS[name]
     assert build(**{name: np.float64(number) if name in REAL else np.int64(number)})
-
-
-@pytest.mark.parametrize(
-    ("changes", "words"),
-    [
-        ({"architecture": 1, "nlayers": 2}, "one hidden layer"),
-        ({"architecture": 2, "nlayers": 2}, "one hidden layer"),
-        ({"architecture": 3, "nlayers": 2}, "one hidden layer"),
-        ({"architecture": 0, "nlayers": 3}, "shared equally"),
-        ({"architecture": 0, "nlayers": 2, "nhiddens2": 10}, "nhiddens2"),
-        ({"nbins": 3, "low": 1.0, "high": 1.0}, "low must be below high"),
-        ({"nhiddens": 10**4}, "too large"),
-    ],
-)
-def test_combinations_are_checked(changes, words):
-    with pytest.raises(ValueError, match=words) as error:
-        build(**changes)
-    assert is_a_sentence(error)
-
-
-def test_number_of_arguments_is_checked():
-    values = list(ARGUMENTS.values())
-    for count in (0, 19, 21):
-        with pytest.raises(TypeError):
-            net.PyEvonet(*[*values, 0][:count])
 
 
 # method: (dtype, size, whether it is written to)
@@ -321,28 +261,6 @@ def test_unsuitable_arrays_are_refused(method):
         assert is_a_sentence(error) and "vector" in str(error.value), (what, error.value)
 
 
-def test_read_only_inputs_are_fine():
-    network = build()
-    _, outputs, _, parameters = hand_over(network)
-    inputs = np.ones(4, np.float32)
-    inputs.flags.writeable = False
-    network.copyInput(inputs)
-    network.updateNet()
-    expected = ReferenceNetwork(network.spec, parameters).step(inputs)[0]
-    assert outputs == pytest.approx(expected, rel=1e-6)
-
-
-def test_a_refused_array_leaves_the_one_before():
-    network = build()
-    inputs, outputs, _, parameters = hand_over(network)
-    inputs[:] = 1
-    with pytest.raises(ValueError, match="shape"):
-        network.copyInput(np.zeros(5, np.float32))
-    network.updateNet()
-    expected = ReferenceNetwork(network.spec, parameters).step(inputs)[0]
-    assert outputs == pytest.approx(expected, rel=1e-6)
-
-
 @pytest.mark.parametrize("missing", ["copyGenotype", "copyInput", "copyOutput", "copyNeuronact"])
 def test_arrays_that_are_missing_are_named(missing):
     network = build()
@@ -362,14 +280,6 @@ def test_arrays_that_are_missing_are_named(missing):
             getattr(network, method)()
 
 
-@pytest.mark.parametrize("method", ["seed", "normphase"])
-@pytest.mark.parametrize("value", [-1, 2**64, 0.5, "1", None])
-def test_seed_and_normphase_are_checked(method, value):
-    with pytest.raises((ValueError, TypeError)) as error:
-        getattr(build(), method)(value)
-    assert is_a_sentence(error)
-
-
 def test_an_array_reshaped_later_cannot_crash():
     network = build()
     inputs, outputs, _, _ = hand_over(network)
@@ -386,19 +296,3 @@ def test_an_array_reshaped_later_cannot_crash():
         network.updateNet()
     outputs.flags.writeable = True
     network.updateNet()
-
-
-def test_several_networks_side_by_side():
-    """Nothing is shared: each gives what it gives alone."""
-
-    def outputs_of(networks):
-        kept = [hand_over(network, seed) for seed, network in enumerate(networks)]
-        for step in range(5):
-            for network, (inputs, *_) in zip(networks, kept, strict=True):
-                inputs[:] = np.sin(np.arange(4) + step)
-                network.updateNet()
-        return [outputs.tolist() for _, outputs, *_ in kept]
-
-    together = outputs_of([build() for _ in range(5)])
-    assert len({tuple(x) for x in together}) == 5
-    assert together[0] == outputs_of([build()])[0]

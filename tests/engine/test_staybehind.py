@@ -8,10 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from botschool import arena, problems
-from botschool.config import PolicyConfig
-from botschool.problems import Episodes
-from botschool.render.scenes import make_scene
+from botschool import arena
 from reference_arena import MARXBOT, PI, World, off
 from reference_network import philox
 
@@ -117,81 +114,6 @@ def test_what_is_rewarded(start, reward):
     own.robots = start
     own.action = [-1, 0, -1, 0]  # nobody moves
     assert own.step() == reward
-
-
-def test_the_place_before_the_step_and_the_headings_after_it_count():
-    own = arena.make("staybehind")
-    own.robots = (1000, 1500, 0), (1590, 1500, 0)
-    own.action = [-1, 0, 1, 0]
-    assert own.step() == 0.01 and own.robots[1, 0] == 1590 + SPEED / 10
-    assert own.step() == 0
-    own.reset()
-    own.robots = (1000, 1500, 0), (1500, 1500, 0)
-    own.action = [-1, 0, 1, -1]  # to the left
-    rewards = [own.step() for _ in range(3)]
-    turned = motors(1, -1)[1] * SPEED / 10 / 104
-    assert [k * turned < math.pi / 4 for k in (1, 2)] == [True, False]
-    assert rewards[:2] == [0.01, 0]
-
-
-@pytest.mark.parametrize("start", [((90, 1500, math.pi), (2000, 1500, 0)),
-                                   ((1000, 1500, 0), (2900, 1500, 0)),
-                                   ((1000, 1500, 0), (1180, 1500, 0))])  # fmt: skip
-def test_any_collision_ends_an_episode(start):
-    own = arena.make("staybehind")
-    own.robots = start
-    own.action = [1, 0, 1, 0] if start[1][0] > 1200 else [1, 0, -1, 0]
-    assert own.step() == 0 and own.terminated
-
-
-@pytest.mark.slow
-def test_evaluation_is_the_same_world():
-    """Returns of whole episodes with networks; whoever computes them: test_engine.py."""
-    problem = problems.make("ErStaybehind")
-    policy = problem.policy(PolicyConfig(nrobots=2, heterogeneous=1, architecture=3, nhiddens=6))
-    genotypes = np.array([policy.initial(5, i) for i in range(12)]) * 3
-    episodes = Episodes.of(np.arange(12) + 2**40, 4)
-    outcome = problem.evaluate(policy, genotypes, None, episodes, 300)
-    assert len(np.unique(outcome.steps)) > 5
-    for i in (0, 17, 40):
-        seed, episode = int(episodes.seed[i]), int(episodes.episode[i])
-        world, total = Staybehind(seed, episode, 300), 0.0
-        genotype = genotypes[episodes.candidate[i]]
-        for moment in problem.play(policy, genotype, None, seed, episode, 300):
-            assert moment.observation == pytest.approx(world.observation(), rel=0, abs=1e-4)
-            total += world.step(moment.action)[0]
-            assert moment.state == pytest.approx(states(world), rel=0, abs=1e-6)
-        assert moment.total == pytest.approx(total) == pytest.approx(outcome.fitness[i])
-        assert moment.step == outcome.steps[i]
-
-
-def test_a_blocked_robot_is_marked():
-    scene = make_scene("ErStaybehind")
-    state = np.array([1000.0, 1500, 0, 1500, 1500, 0, 0, 0, 3])
-    action, seen = [0.0, 0, 0, 0], np.zeros(64)
-
-    def halves(*blocked):
-        """Left and right of the middle between both robots."""
-        held = state.copy()
-        held[6:8] = blocked
-        frame = scene.draw(held, action, seen)
-        return np.split(frame, [frame.shape[1] * (1250 + 120) // 3240], axis=1)
-
-    free = halves(0, 0)
-    for blocked in (0, 1):
-        marked = halves(1 - blocked, blocked)
-        changed = [
-            np.count_nonzero((a != b).any(axis=2)) for a, b in zip(free, marked, strict=True)
-        ]
-        assert changed[blocked] > 800 and changed[1 - blocked] == 0
-
-
-def test_wheels_are_drawn_as_they_turn():
-    scene = make_scene("ErStaybehind")
-    state = np.array([1000.0, 1500, 0, 1500, 1500, 0, 0, 0, 3])
-    action = [1.0, -0.5, 0.0, 1.0]
-    drawn = scene.numbers(state, action, np.zeros(64))[-4:]
-    assert drawn == pytest.approx([*motors(1.0, -0.5), *motors(0.0, 1.0)])
 
 
 # --- ErStaybehind written a second time from its description in docs/specification.md,

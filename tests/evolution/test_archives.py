@@ -192,74 +192,6 @@ def test_archivestar_with_one_lineage_is_archive():
     assert np.array_equal(one.archives, other.archives)
 
 
-@pytest.mark.parametrize("name", VARIANTS)
-def test_a_generation_is_one_call_and_both_of_a_pair_meet_the_same(name):
-    algorithm, config = game(name)
-    calls = []
-
-    def spying(predators, prey, pairs):
-        calls.append((predators, prey, pairs))
-        return play(predators, prey, pairs)
-
-    for generation in range(4):
-        assert algorithm.side == generation % 2
-        centres = algorithm.centres[algorithm.side].copy()
-        archive = np.array(algorithm.archives[1 - algorithm.side], dtype=np.float64)
-        algorithm.advance(spying)
-        networks, pairs = calls[-1][:2], calls[-1][2]
-        side = generation % 2
-        ours, theirs = networks[side], networks[1 - side]
-        candidates = config.popsize * 2 * config.samplesize
-        assert len(ours) == candidates
-        assert pairs.dtype == np.int32 and pairs.shape == (2, candidates * config.ncompetitors)
-        middle = ours.reshape(config.popsize, -1, 2, SIZE).mean(axis=2)
-        np.testing.assert_allclose(middle, np.broadcast_to(centres[:, None], middle.shape))
-        archived = {row.tobytes() for row in archive}
-        assert {row.tobytes() for row in theirs} <= archived
-        rivals = [[] for _ in range(candidates)]
-        for candidate, rival in zip(pairs[side], pairs[1 - side], strict=True):
-            rivals[candidate].append(rival)
-        for plus, minus in zip(rivals[0::2], rivals[1::2], strict=True):
-            assert plus == minus and len(plus) == config.ncompetitors
-    assert len(calls) == 4
-
-
-@pytest.mark.parametrize("name", ["archivestar", "maxsolvestar"])
-def test_what_is_known_of_an_archive_must_fit_it(name):
-    algorithm, _ = game(name)
-    state = algorithm.state()
-    key = next(key for key in state if key.startswith("archive_prey_"))
-    with pytest.raises(ValueError, match="do not fit"):
-        algorithm.restore(state | {key: state[key][:-1]})
-
-
-def test_opponents_are_of_all_lineages_alike():
-    algorithm, config = game("archivestar", ncompetitors=7)
-    for _ in range(8):
-        algorithm.advance(play)
-    _, opponents = algorithm.ask()
-    lineages = np.array(algorithm.lineages[1 - algorithm.side])
-    assert (lineages[opponents] == np.arange(7) % config.popsize).all()
-    assert len(np.unique(opponents)) > 10
-
-
-def test_stronger_opponents_are_preferred():
-    algorithm, _ = game("archivestar, strongest", samplesize=100)
-    algorithm.strengths = ([0.1, 0.2, 0.3, 0.9, 0.4],) * 2
-    _, opponents = algorithm.ask()
-    # the strongest of three draws with replacement from five: 1 - 0.8^3, and 0.2^3 the weakest
-    share = np.bincount(opponents.ravel(), minlength=5) / opponents.size
-    assert share == pytest.approx([0.008, 0.056, 0.152, 0.488, 0.296], abs=0.06)
-    assert algorithm.ask()[1].tolist() == opponents.tolist()
-
-
-def test_opponents_are_drawn_uniformly():
-    algorithm, _ = game("archive", samplesize=400)
-    _, opponents = algorithm.ask()
-    share = np.bincount(opponents.ravel(), minlength=5) / opponents.size
-    assert share == pytest.approx([0.2] * 5, abs=0.04)
-
-
 def test_phases_are_equal_parts_of_the_evolution():
     algorithm, _ = game("maxsolvestar", nphases=4)
     shares = (0, 0.24, 0.25, 0.5, 0.74, 0.99, 1)
@@ -267,25 +199,6 @@ def test_phases_are_equal_parts_of_the_evolution():
     for algorithm.share in shares:
         found.append(algorithm.phase)
     assert found == [0, 0, 1, 2, 2, 3, 3]
-
-
-def test_before_its_first_turn_a_side_is_random():
-    algorithm, _ = game("archive")
-    for side in (0, 1):
-        expected = [initial(i)[side * SIZE :][:SIZE] for i in range(SAVED)]
-        assert np.array_equal(algorithm.saved[side], expected)
-    algorithm.advance(play)
-    assert np.array_equal(algorithm.saved[1], expected)
-    assert not np.isnan(algorithm.fitness[0]).any() and np.isnan(algorithm.fitness[1]).all()
-
-
-def test_who_is_saved_cannot_be_more_than_there_are():
-    algorithm, _ = game("archive", samplesize=1)
-    assert algorithm.saved.shape == (2, 3, SIZE)
-    algorithm.advance(play)
-    assert np.array_equal(algorithm.saved[0, 0], algorithm.centres[0, 0])
-    networks, fitness = algorithm.individuals(play)
-    assert networks.shape == (2, 3, SIZE) and fitness.shape == (3, 3)
 
 
 @settings(max_examples=200, deadline=None)

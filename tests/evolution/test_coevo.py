@@ -96,12 +96,3 @@ def test_generations_agree_with_plain_python(wdecay):
         changed = (algorithm.parameters != before).any(axis=1).sum()
         assert 1 <= changed <= 3
     assert algorithm.generation == 4
-
-
-def test_the_best_pair_is_the_best_first_and_the_best_second_robot():
-    algorithm = game()
-    pair, fitness = algorithm.best()
-    rows, columns = algorithm.fitness.mean(axis=1), algorithm.fitness.mean(axis=0)
-    assert pair[:SIZE].tolist() == algorithm.parameters[rows.argmax()].tolist()
-    assert pair[SIZE:].tolist() == algorithm.parameters[columns.argmax()].tolist()
-    assert fitness == pytest.approx(rows.max())

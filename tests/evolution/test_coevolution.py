@@ -1,9 +1,7 @@
 """Runs of two sides, and of one population that meets itself: their files, and that workers, stops
 and kills do not show in them."""
 
-import json
 import random
-import re
 import shutil
 import signal
 import sys
@@ -12,16 +10,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-import running
 from botschool import config, problems
 from botschool.analysis.tournament import Contest
 from botschool.evolution.algorithms.halloffame import SAVED
 from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.record import STAT
-from botschool.evolution.replicate import replicate
-from botschool.evolution.run import Options, evolve
+from botschool.evolution.run import evolve
 from botschool.problems import Episodes
-from running import contents, finish, run_seeds, same, start
+from running import contents, finish, same, start
 
 POLICY = {"nrobots": 2, "heterogeneous": 1, "maxsteps": 250, "nhiddens": 4, "bias": 1}
 POLICY |= {"architecture": 3, "winit": 2, "wrange": 2}  # bold robots, who meet
@@ -181,23 +177,6 @@ def test_the_stat_file_and_the_best_are_those_of_every_generation(whole):
     assert np.array_equal(np.load(whole.folder / "bestgS3.npy"), expected)
 
 
-def test_fitness_is_averaged_over_the_episodes(tmp_path):
-    """With action noise, episodes of the same two differ."""
-    noise = {"episodes": 3, "action_noise": 1, "action_noise_range": 0.5}
-    own = experiment(tmp_path, policy=noise, ngenerations=1)
-    assert run(own, tmp_path / "run")
-    problem = problems.of(own)
-    population = np.load(tmp_path / "run" / "S3G1.npy")
-    fitness = np.load(tmp_path / "run" / "S3FitG1.npy")
-    means = []
-    for i in range(6):
-        pairs = np.array([[i] * 3, [6] * 3], dtype=np.int32)
-        episodes = Episodes(pairs, np.full(3, 3, np.uint64), np.arange(3, dtype=np.uint32))
-        outcome = problem.evaluate(problem.policy(own.policy), population, None, episodes, 250)
-        means.append(outcome.fitness.mean())
-    assert fitness[:6, 0] == pytest.approx(means)
-
-
 @pytest.mark.slow
 def test_event_files_hold_local_progress_and_both_sides(tmp_path, own):
     from tensorboard.backend.event_processing.event_accumulator import EventAccumulator
@@ -214,39 +193,6 @@ def test_event_files_hold_local_progress_and_both_sides(tmp_path, own):
     assert [np.float32(point.value) for point in points] == stat[:, 4].tolist()
 
 
-@pytest.mark.parametrize("algo", ALGORITHMS)
-def test_a_line_per_generation(algo, command, tmp_path):
-    write(tmp_path, algo)
-    code, out, errors = command(*arguments(tmp_path, "--generations", 3))
-    assert (code, errors) == (0, "")
-    *lines, result = out.splitlines()
-    assert len(lines) == 3
-    sides = ("population",) if algo == "coevo" else ("predators", "prey")
-    for g, line in enumerate(lines):
-        who = sides[g % len(sides)]
-        start = rf"seed 3  generation {g + 1} \([0-9.]+%\)  {who} evolved  steps [0-9]+  "
-        assert re.match(start, line)
-    if algo == "coevo":
-        assert "population 0." in result and "(follower, then leader)" in result
-        return
-    assert "best of both" in result and "bestgS3.npy" in result
-    if algo == "coevo2":
-        assert [f"({20 * (g + 1)}.0%)" in line for g, line in enumerate(lines)] == [True] * 3
-        assert all("local progress" in line and "predators 0." in line for line in lines)
-        # both sides have had a turn
-        assert ["time left 0:00:" in line for line in lines] == [False, True, True]
-    else:
-        assert "predators 0" in lines[0]
-        assert ["prey -  " in line for line in lines] == [True, False, False]
-
-
-def test_during_a_generation_the_bar_goes_on(tmp_path, own):
-    shares = []
-    evolve(Coevolution(own, 3), tmp_path, report=lambda run: shares.append(run.limit.share(run)))
-    assert shares == sorted(shares) and shares[-1] == 1
-    assert len(set(np.round(shares, 9))) >= 5 * 21
-
-
 # workers, stops and kills
 
 
@@ -255,35 +201,6 @@ def test_during_a_generation_the_bar_goes_on(tmp_path, own):
 def test_workers_do_not_show(workers, whole, tmp_path):
     assert run(whole.own, tmp_path / "run", workers)
     assert same(whole.folder, tmp_path / "run")
-
-
-def in_bands(predators, prey):
-    """Four predators at a time: all of a band meet the first prey, then the second, ..."""
-    bands = [predators[i : i + 4] for i in range(0, len(predators), 4)]
-    pairs = [(p, q) for band in bands for q in prey for p in band]
-    return [list(side) for side in zip(*pairs, strict=True)]
-
-
-def test_consecutive_episodes_share_networks(own):
-    coevolution = Coevolution(own, 3)
-    asked = []
-    evaluate = coevolution.problem.evaluate
-
-    def spying(policy, genotypes, normalisation, episodes, *rest):
-        asked.append(episodes.candidate.tolist())
-        return evaluate(policy, genotypes, normalisation, episodes, *rest)
-
-    coevolution.problem.evaluate = spying
-    for _ in range(3):
-        coevolution.advance()
-    first, predators_evolve, prey_evolve = asked[0], asked[1:22], asked[22:]
-    assert first == in_bands(range(6), range(6, 12))
-    for pairs in predators_evolve[:20]:
-        assert pairs == in_bands(range(8), [8, 9])
-    for pairs in prey_evolve[:20]:
-        assert pairs == in_bands([0, 1], range(2, 10))
-    assert predators_evolve[20] == in_bands([0, 1], range(2, 8))
-    assert prey_evolve[20] == in_bands(range(6), [6, 7])
 
 
 @pytest.mark.slow
@@ -297,30 +214,11 @@ def test_early_ends_do_not_show(whole, tmp_path):
     assert same_but_for_stops(whole.folder, folder)
 
 
-def test_the_first_populations_are_saved_when_everyone_has_met_everyone(own, tmp_path):
-    assert run(own, tmp_path / "run", steps=1)
-    assert len(np.load(tmp_path / "run" / "statS3.npy")) == 0
-    policy = Coevolution(own, 3).policy
-    pairs = np.array([policy.initial(3, i) for i in range(6)])
-    saved = np.split(np.load(tmp_path / "run" / "S3G0.npy"), 2)
-    for side, expected in zip(saved, np.split(pairs, 2, axis=1), strict=True):
-        assert sorted(map(tuple, side)) == sorted(map(tuple, expected))
-
-
 def test_steps_end_a_run(tmp_path):
     own = experiment(tmp_path, "archive", maxmsteps=0.03, ngenerations=0)
     assert run(own, tmp_path / "run")
     steps = np.load(tmp_path / "run" / "statS3.npy").reshape(-1, 6)[:, 0]
     assert len(steps) > 2 and steps[-2] < 30_000 <= steps[-1]
-
-
-def test_generations_end_runs_of_other_algorithms(tmp_path):
-    other = running.experiment(tmp_path)
-    assert replicate(other, [3], tmp_path / "run", Options(generations=4))
-    assert len(np.load(tmp_path / "run" / "statS3.npy")) == 4 * 6
-    assert replicate(other, [3], tmp_path / "run", Options(resume=True))
-    assert run_seeds(other, tmp_path / "whole", [3])
-    assert same(tmp_path / "whole", tmp_path / "run")
 
 
 def test_going_on_with_a_longer_run_does_not_show(own, tmp_path):
@@ -332,14 +230,6 @@ def test_going_on_with_a_longer_run_does_not_show(own, tmp_path):
     assert {name for name in parts if parts[name] != expected.get(name)} == {
         *("S3G1.npy", "S3G3.npy", "S3FitG1.npy", "S3FitG3.npy")
     }
-
-
-def test_only_runs_without_phases_may_be_lengthened(refused, tmp_path):
-    for algo in ("archive", "maxsolvestar"):
-        assert run(experiment(tmp_path / algo, algo), tmp_path / algo / "run", generations=2)
-        write(tmp_path / algo, algo, maxmsteps=2000)
-    assert run(config.load(tmp_path / "archive/own.ini"), tmp_path / "archive/run", resume=True)
-    refused(*arguments(tmp_path / "maxsolvestar", "--resume"), says=["maxmsteps", "is now 2000"])
 
 
 @pytest.mark.slow
@@ -359,27 +249,6 @@ def test_a_request_to_stop_at_any_moment_does_not_show(whole, tmp_path):
         assert asked == moment + 1
         assert evolve(Coevolution(whole.own, 3), folder, resume=True)
         assert same_but_for_stops(whole.folder, folder)
-
-
-@pytest.mark.parametrize("algo", ["archive", "archivestar", "maxsolvestar"])
-def test_saving_does_not_show(algo, tmp_path):
-    """Individuals of archives meet for the files alone."""
-    for saveeach in (1, 4):
-        own = experiment(tmp_path, algo, saveeach=saveeach)
-        assert run(own, tmp_path / str(saveeach))
-    for name in ("statS3.npy", "bestgS3.npy", "S3G8.npy", "S3FitG8.npy"):
-        assert (tmp_path / "1" / name).read_bytes() == (tmp_path / "4" / name).read_bytes()
-
-
-def test_large_archives_are_saved_less_often(tmp_path):
-    coevolution = Coevolution(experiment(tmp_path, "archive"), 3)
-    coevolution.advance()
-    assert coevolution.due(61) and not coevolution.due(59)
-    coevolution.saving = 10.0
-    assert coevolution.due(201) and not coevolution.due(199)
-    while coevolution.record.generation < 4:
-        coevolution.advance()
-    assert coevolution.due(0)
 
 
 def test_phases_are_those_of_the_experiment(tmp_path):
@@ -423,23 +292,6 @@ def test_ten_kills_do_not_show(tmp_path):
     assert same(tmp_path / "undisturbed", tmp_path / "run")
 
 
-@pytest.mark.slow
-@posix
-def test_ctrl_c_saves_the_last_whole_generation(tmp_path):
-    own = experiment(tmp_path, ngenerations=100_000, saveeach=1000)
-    process = start(*arguments(tmp_path, "-w", 2))
-    told(process, 3)
-    process.send_signal(signal.SIGINT)
-    code, out, errors = finish(process)
-    assert (code, errors) == (130, "")
-    done = len(np.load(tmp_path / "run" / "statS3.npy")) // 6
-    assert f"stopped after {done} generations; all is saved" in out
-    assert (tmp_path / "run" / f"S3G{done}.npy").exists()
-    assert run(own, tmp_path / "run", resume=True, generations=done + 1)
-    assert run(own, tmp_path / "undisturbed", generations=done + 1)
-    assert same_but_for_stops(tmp_path / "undisturbed", tmp_path / "run")
-
-
 # what comes after
 
 
@@ -474,15 +326,6 @@ def test_populations_are_shown_and_measured(whole, command, tmp_path):
     assert command(*common, f"P-{g}-2", "--replay", page, "--episodes", 1)[0] == 0
     assert page.stat().st_size > 10_000
     assert command(*common, whole.folder / "bestgS3.npy", "--render", "none")[0] == 0
-
-
-def test_runs_of_two_algorithms_meet(command, tmp_path):
-    for algo in ("archive", "maxsolvestar"):
-        assert run(experiment(tmp_path / algo, algo), tmp_path / algo, generations=2)
-    one, two = (tmp_path / algo / "S3G2.npy" for algo in ("archive", "maxsolvestar"))
-    file = tmp_path / "archive" / "own.ini"
-    code, _, errors = command("es", "-f", file, "-p", "-g", f"c-{one}-{two}", "-o", tmp_path)
-    assert (code, errors) == (0, "")
 
 
 def test_plotstat_draws_it(whole, command, tmp_path):
@@ -526,12 +369,6 @@ def test_experiments_that_are_refused(algo, changes, says, refused, tmp_path):
     assert not (tmp_path / "run").exists()
 
 
-def test_names_of_algorithms_are_suggested(refused, tmp_path):
-    path = write(tmp_path, "archive")
-    path.write_text(path.read_text().replace("algo = archive", "algo = archivstar"))
-    refused(*arguments(tmp_path), says="did you mean archivestar?")
-
-
 def test_populations_are_not_overwritten(refused, command, own, tmp_path):
     assert run(own, tmp_path / "run")
     before = contents(tmp_path / "run")
@@ -571,23 +408,3 @@ def test_damaged_checkpoints(whole, refused, tmp_path):
     )
     write(tmp_path, whole.algo, **{key: value})
     refused(*arguments(tmp_path, "--resume"), says=[key, f"is now {value}"])
-
-
-@pytest.mark.parametrize("algo", ["coevo2", "coevo"])
-def test_checkpoints_of_networks_that_were_computed_otherwise(algo, refused, tmp_path):
-    """As of versions in which an LSTM's outputs were linear, whatever out_type said."""
-    assert run(experiment(tmp_path, algo, policy={"out_type": 3}), tmp_path / "run", generations=1)
-    path = tmp_path / "run" / "checkpointS3.npz"
-    whole = dict(np.load(path))
-    header = json.loads(str(whole["botschool"]))
-    header["experiment"]["policy"]["out_type"] = 2
-    fitness = whole["algorithm.fitness"].copy()
-    fitness[0, -1] = np.nextafter(fitness[0, -1], 2)  # the last bit of one meeting
-    for changed, out_type in (
-        ({"botschool": np.array(json.dumps(header))}, 2),
-        ({"algorithm.fitness": fitness}, 3),
-    ):
-        np.savez(path, **whole | changed)
-        write(tmp_path, algo, policy={"out_type": out_type})
-        says = ["checkpointS3.npz", "evaluates robots differently", "--force"]
-        refused(*arguments(tmp_path, "--resume"), says=says)

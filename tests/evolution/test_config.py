@@ -9,7 +9,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from botschool import config, npy
+from botschool import config
 from botschool.config import (
     Coevo2Config,
     Exp,
@@ -212,22 +212,6 @@ def test_ways_to_write_a_file(tmp_path, content):
     assert experiment == Experiment(Exp("CartPole-v1", "SSS"), PolicyConfig(), SSSConfig(popsize=8))
 
 
-def test_policy_and_algo_need_no_section(tmp_path):
-    experiment = load(write(tmp_path, "[EXP]\nenvironment = CartPole-v1\nalgo = SSS\n"))
-    assert experiment == Experiment(Exp("CartPole-v1", "SSS"), PolicyConfig(), SSSConfig())
-
-
-@pytest.mark.parametrize("key", ["mutrate", "mutation", "Mutation"])
-def test_mutation_is_mutrate(tmp_path, key):
-    path = write(tmp_path, text(algo=f"{key} = 0.1", exp="environment = X\nalgo = SSS"))
-    assert load(path).algo.mutrate == 0.1
-
-
-@pytest.mark.parametrize("name", ["X", "ns/Walker-v2", "my.module:Own-v0", "envSwingupCustom"])
-def test_environment_names(tmp_path, name):
-    assert load(write(tmp_path, text(exp=f"environment = {name}"))).exp.environment == name
-
-
 def test_file_in_the_style_of_the_original_library(tmp_path):
     path = write(
         tmp_path,
@@ -368,36 +352,10 @@ def test_missing_file_names_those_in_its_folder(tmp_path):
     assert "acrobot.ini" in refused(tmp_path) and "is a folder" in refused(tmp_path)
 
 
-def test_missing_file_in_a_folder_without_experiments(tmp_path, monkeypatch):
-    assert "holds no .ini file" in refused(tmp_path / "own.ini")
-    assert "none does not exist" in refused(tmp_path / "none" / "own.ini")
-    monkeypatch.chdir(tmp_path)
-    assert "this folder holds no .ini file" in refused("own.ini")
-
-
-def test_unreadable_file(tmp_path, monkeypatch):
-    def deny(*args):
-        raise PermissionError(13, "Permission denied")
-
-    monkeypatch.setattr(npy, "open", deny, raising=False)
-    assert "cannot be read (Permission denied)" in refused(write(tmp_path, text()))
-
-
-def test_impossible_path():
-    assert "cannot be read" in refused("a\0b.ini")
-
-
 @pytest.mark.parametrize("path", EXPERIMENTS, ids=lambda path: path.stem)
 def test_experiments_of_the_repository(path):
     experiment = load(path)
     assert from_dict(json.loads(json.dumps(to_dict(experiment)))) == experiment
-
-
-def test_there_are_experiments():
-    names = (
-        "acrobot bipedalwalker cartpole dpole lunarlander mountaincarcontinuous pendulum swingup"
-    )
-    assert set(names.split()) <= {path.stem for path in EXPERIMENTS}
 
 
 @pytest.mark.parametrize(
@@ -487,19 +445,3 @@ def test_any_text_loads_or_is_refused(tmp_path, lines, headed):
     head = ["[EXP]", "environment = CartPole-v1", "[ALGO]", "[POLICY]"] if headed else []
     content = "\n".join(head + lines).encode("utf-8", "surrogatepass")
     loads_or_refuses(write(tmp_path, content))
-
-
-@QUICK
-@given(st.binary(max_size=300))
-def test_any_bytes_load_or_are_refused(tmp_path, data):
-    loads_or_refuses(write(tmp_path, data))
-
-
-@QUICK
-@given(st.dictionaries(st.sampled_from(KEYS), st.sampled_from(VALUES), max_size=6))
-def test_any_known_keys_load_or_are_refused(tmp_path, pairs):
-    sections = {"EXP": "environment = CartPole-v1", "POLICY": "", "ALGO": ""}
-    for section, name, _, _ in describe():
-        if name in pairs and name != "environment" and section != "ARENA":
-            sections[section.split()[0]] += f"\n{name} = {pairs.pop(name)}"
-    loads_or_refuses(write(tmp_path, text(sections["POLICY"], sections["ALGO"], sections["EXP"])))

@@ -19,9 +19,6 @@ from running import (
     experiment,
     finish,
     finished_run,
-    one_sentence,
-    run_seeds,
-    same,
     start,
     write_experiment,
 )
@@ -57,12 +54,6 @@ def test_wrong_arguments(arguments, says, refused, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     refused(*arguments.split(), says=says)
     assert [path.name for path in tmp_path.iterdir()] == ["own.ini"]
-
-
-def test_without_arguments_there_is_help(command):
-    code, out, errors = command()
-    assert code in (0, 2)  # as Typer likes it
-    assert "es" in out + errors and "error" not in errors
 
 
 @pytest.mark.slow
@@ -165,32 +156,6 @@ def test_force_overwrites_these_seeds_only(command, tmp_path):
     }
 
 
-def test_force_with_a_wrong_experiment_removes_nothing(refused, tmp_path):
-    ini, results = finished_run(tmp_path)
-    before = contents(results)
-    for wrong in ("tiny_envs:Tinymakes-v0", "CartPole-v7"):
-        write_experiment(tmp_path, wrong)
-        refused("es", "-f", ini, "-o", results, "--force")
-        assert contents(results) == before
-
-
-def test_resume_without_anything_to_resume_starts_anew(command, tmp_path):
-    ini, results = finished_run(tmp_path)
-    assert command("es", "-f", ini, "-o", tmp_path / "new", "--resume")[0] == 0
-    assert same(results, tmp_path / "new")
-
-
-def test_resume_removes_what_a_killed_process_left(command, tmp_path):
-    ini, results = finished_run(tmp_path)
-    before = contents(results)
-    for name in (".statS1.7.npy", ".checkpointS1.12.npz", ".S1.3.fit"):
-        (results / name).write_text("half")
-    (results / ".statS11.7.npy").write_text("of another run")
-    assert command("es", "-f", ini, "-o", results, "--resume")[0] == 0
-    (results / ".statS11.7.npy").unlink()
-    assert contents(results) == before
-
-
 # watching
 
 
@@ -203,14 +168,6 @@ def test_watching_without_a_display_prints(command, tmp_path, monkeypatch):
     assert out.count("episode ") == 3
     best = np.load(results / "statS1.npy")[-4]
     assert f"mean {best:.2f}  standard deviation" in out
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="other systems always have a display")
-def test_a_window_without_a_display(refused, tmp_path, monkeypatch):
-    ini = write_experiment(tmp_path)
-    for name in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"):
-        monkeypatch.delenv(name, raising=False)
-    refused("es", "-f", ini, "-p", "--render", "human", says=["display", "--video"])
 
 
 def test_videos_that_cannot_be_written(refused, tmp_path):
@@ -273,15 +230,6 @@ def test_workers_that_always_die(refused, tmp_path):
     breaks_in_the_middle("dies", ["died 3 times", "-w 1", "memory"], refused, tmp_path, workers=2)
 
 
-def test_an_environment_that_breaks_while_it_is_watched(refused, tmp_path):
-    ini = write_experiment(tmp_path, "tiny_envs:Tinyresets-v0")
-    own = write_experiment(tmp_path / "blind", "tiny_envs:Blind-v0")
-    for flags in (["--video", tmp_path / "film.gif"], ["--render", "human"]):
-        refused("es", "-f", own, "-p", *flags, says=["draws no pictures", "--render none"])
-    assert not list(tmp_path.glob("*film*"))
-    assert ini.exists()
-
-
 def test_a_stopped_batch_leaves_no_process_and_no_thread(tmp_path):
     """A thread of the pool that is just ending makes CPython's own ending fail, now and then."""
     own = experiment(tmp_path, "tiny_envs:Tiny-v0")
@@ -293,22 +241,6 @@ def test_a_stopped_batch_leaves_no_process_and_no_thread(tmp_path):
             run.advance()
     assert threading.active_count() == before
     assert not multiprocessing.active_children()
-
-
-def test_discrete_actions_may_start_below_zero(tmp_path):
-    assert run_seeds(experiment(tmp_path, "tiny_envs:Tinydiscrete-v0"), tmp_path)
-
-
-@pytest.mark.parametrize("environment", ["Acrobot-v1", "Pendulum-v1", "ErDpole"])
-def test_parameters_without_bound(environment, command, tmp_path):
-    """Activations overflow; the run goes on, or stops in a sentence."""
-    policy = {"nlayers": 16, "nhiddens": 10, "afunction": 3, "out_type": 3}
-    ini = write_experiment(
-        tmp_path, environment, "OpenAI-ES", policy, stepsize=1000, noiseStdDev=1000
-    )
-    code, _, errors = command("es", "-f", ini, "-o", tmp_path / "results")
-    if code:
-        one_sentence(code, errors, ["seed", "stepsize"])
 
 
 @pytest.mark.slow

@@ -2,7 +2,6 @@
 
 import json
 import os
-import pickle
 import shutil
 import sys
 from zipfile import ZipFile
@@ -60,26 +59,6 @@ def test_files_that_are_no_genotypes(refused, tmp_path):
     for path in (results / "checkpointS1.npz", results / "S1.fit", results):
         refused("es", "-f", ini, "-p", "-g", path, says="genotype")
     refused("es", "-f", ini, "-g", tmp_path / "bestgS2.npy", says=["bestgS2.npy", "bestgS11.npy"])
-
-
-class Trap:
-    """Unpickling this is an attack."""
-
-    def __reduce__(self):
-        return (exec, ("raise SystemExit('unpickled')",))
-
-
-def test_pickles_are_never_opened(refused, tmp_path):
-    ini, results = finished_run(tmp_path)
-    np.save(tmp_path / "trap.npy", np.array([Trap()], dtype=object), allow_pickle=True)
-    (tmp_path / "bare.npy").write_bytes(pickle.dumps(Trap()))
-    for name in ("trap.npy", "bare.npy"):
-        refused("es", "-f", ini, "-p", "-g", tmp_path / name, says=["not a genotype"])
-    whole = dict(np.load(results / "checkpointS1.npz"))
-    for name in ("botschool", "algorithm.population", "more"):
-        trapped = whole | {name: np.array([Trap()], dtype=object)}
-        np.savez(results / "checkpointS1.npz", **trapped)
-        refused("es", "-f", ini, "-o", results, "--resume", says=["checkpointS1.npz", "--force"])
 
 
 # checkpoints
@@ -208,49 +187,6 @@ def test_checkpoints_of_other_experiments(key, value, refused, tmp_path):
     write_experiment(tmp_path, **parts, policy=policy, **algorithm)
     refused("es", "-f", ini, "-o", results, "--resume", says=[f"{key} is now {value}", "--force"])
     assert contents(results) == before
-
-
-def test_an_environment_that_has_changed(refused, tmp_path):
-    """The same experiment file, but the environment's observations have become more."""
-    ini, results = finished_run(tmp_path, "tiny_envs:Tiny-v0")
-    finished_run(tmp_path / "other", "CartPole-v1")
-    header = np.load(results / "checkpointS1.npz")["botschool"]
-    other = dict(np.load(tmp_path / "other" / "results" / "checkpointS1.npz"))
-    np.savez(results / "checkpointS1.npz", **other | {"botschool": header})
-    says = ["checkpointS1.npz", "environment has changed"]
-    refused("es", "-f", ini, "-o", results, "--resume", says=says)
-
-
-@pytest.mark.parametrize(
-    ("then", "now"),
-    [({"architecture": 3, "out_type": 3}, {"out_type": 2}), ({"clip": 0}, {"clip": 1})],
-    ids=["LSTM", "clip"],
-)
-def test_checkpoints_of_networks_that_were_computed_otherwise(
-    then, now, refused, command, tmp_path
-):
-    """Versions before out_type held for LSTMs, and clip without normalize, computed for `now` what
-    this one computes for `then`; their checkpoints say `now` and are otherwise the same."""
-    problem = ("Pendulum-v1", "OpenAI-ES")
-    policy = {"normalize": 0, "out_type": 3, "maxsteps": 200} | then
-    ini = write_experiment(tmp_path, *problem, policy, maxmsteps=0.02)
-    results = tmp_path / "results"
-    assert command("es", "-f", ini, "-o", results)[0] == 0
-    path = results / "checkpointS1.npz"
-    whole = dict(np.load(path))
-    header = json.loads(str(whole["botschool"]))
-    header["experiment"]["policy"] |= now
-    np.savez(path, **whole | {"botschool": np.array(json.dumps(header))})
-    before = contents(results)
-
-    write_experiment(tmp_path, *problem, policy | now, maxmsteps=0.02)
-    says = ["checkpointS1.npz", "evaluates robots differently", "--force"]
-    refused("es", "-f", ini, "-o", results, "--resume", says=says)
-    assert contents(results) == before
-
-    np.savez(path, **whole)
-    write_experiment(tmp_path, *problem, policy, maxmsteps=0.02)
-    assert command("es", "-f", ini, "-o", results, "--resume")[0] == 0
 
 
 # what is no file, and what is not this kind of file

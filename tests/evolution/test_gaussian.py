@@ -1,6 +1,5 @@
 """CMA-ES, xNES and sNES: the updates of the papers, step by step; runs of whole experiments."""
 
-import itertools
 import os
 import subprocess
 import sys
@@ -12,7 +11,6 @@ import pytest
 from botschool.config import load
 from botschool.errors import BotschoolError
 from botschool.evolution.algorithm import ALGORITHMS
-from botschool.evolution.algorithms.xnes import exponential
 from plain_algorithms import PlainCMAES, PlainSNES, PlainXNES
 from running import run_seeds, write_experiment
 
@@ -89,97 +87,6 @@ def test_every_step_is_that_of_the_paper(name, popsize):
         np.testing.assert_allclose(shape_of(one), plain_shape(other), 1e-7, 1e-12)
     assert one.average_parameter() == pytest.approx(np.abs(one.mean).mean())
     assert bent(one.mean[None]) > bent(initial(0)[None])
-
-
-@pytest.mark.parametrize("name", [name for name in VARIANTS if name.startswith("CMA")])
-def test_a_path_that_gets_long_stalls_the_covariance_as_in_the_paper(name):
-    """On a slope, with a sigma that is far too small."""
-    one = made(name)
-    other = plain(name, initial(0), one.popsize)
-    stalled = 0
-    for _ in range(25):
-        candidates, _ = one.ask()
-        path = one.path_c
-        one.tell(candidates[:, 0])
-        other.tell(candidates, candidates[:, 0])
-        stalled += np.array_equal(one.path_c, (1 - one.settings.cc) * path) and path.any()
-        np.testing.assert_allclose(shape_of(one), plain_shape(other), 1e-7)
-    assert stalled >= 2
-
-
-@each
-def test_candidates_have_the_distribution_that_the_state_says(name):
-    one = made(name, popsize=20000)
-    small = made(name)
-    for _ in range(30):
-        small.tell(bent(small.ask()[0]))
-    state = small.state()
-    if "root" in state:
-        # what is used is the root of the newest decomposition
-        root = state["root"]
-        state["covariance"] = root * root if root.ndim == 1 else root @ root
-    one.restore(state)
-    candidates, _ = one.ask()
-    np.testing.assert_allclose(candidates.mean(axis=0), one.mean, atol=0.03 * np.max(one.sigma))
-    scale = np.sqrt(np.diag(shape_of(one)))
-    found = np.cov(candidates.T) / np.outer(scale, scale)
-    np.testing.assert_allclose(found, shape_of(one) / np.outer(scale, scale), atol=0.05)
-
-
-def test_cma_es_decomposes_seldom_where_little_is_learnt():
-    one = made("CMA-ES", size=60, popsize=6)
-    gap = one.settings.gap
-    assert gap > 1
-    roots = []
-    for _ in range(2 * gap):
-        one.tell(bent(one.ask()[0]))
-        roots.append(one.state()["root"])
-    changed = [not np.array_equal(a, b) for a, b in itertools.pairwise(roots)]
-    assert [i + 2 for i, c in enumerate(changed) if c] == [gap, 2 * gap]
-    for _ in range(2 * gap):
-        root = one.state()["root"]
-        one.tell(bent(one.ask()[0]))
-    np.testing.assert_allclose(one.matrix.root @ one.matrix.root, one.matrix.covariance, 1e-9)
-    assert root.shape == (60, 60)
-
-
-@pytest.mark.parametrize("scale", [1e-3, 1, 30])
-def test_the_exponential_of_few_rows(scale):
-    rng = np.random.default_rng(3)
-    z, weights = rng.normal(size=(5, 9)), scale * rng.normal(size=5) / 9
-    values, vectors = np.linalg.eigh((z.T * weights) @ z)
-    expected = (vectors * np.exp(values)) @ vectors.T
-    found = np.eye(9) + z.T @ exponential(z, weights) @ z
-    np.testing.assert_allclose(found, expected, atol=1e-10 * np.abs(expected).max())
-
-
-def test_xnes_keeps_the_volume_in_sigma():
-    one = made("xNES")
-    for _ in range(100):
-        one.tell(bent(one.ask()[0]))
-    assert np.linalg.det(one.shape) == pytest.approx(1, rel=1e-9)
-    assert np.linalg.cond(one.shape) > 3
-
-
-@each
-def test_one_parameter_and_fitness_that_says_nothing(name):
-    one = made(name, size=1)
-    assert one.popsize == 4
-    for _ in range(300):
-        candidates, _ = one.ask()
-        assert np.isfinite(candidates).all()
-        one.tell(np.zeros(len(candidates)))
-    assert np.isfinite(one.mean).all()
-
-
-@each
-def test_sigma_stays_within_its_limits(name):
-    """On a slope it would grow for ever."""
-    one = made(name)
-    one.sigma = 0.0 * one.sigma + 1e6
-    for _ in range(40):
-        one.tell(one.ask()[0][:, 0])
-        assert np.max(one.sigma) <= 1e6
 
 
 BITS = """

@@ -1,21 +1,15 @@
 """Two commands never write the same run; Ctrl-C at any moment is a sentence at most."""
 
-import errno
-import fcntl
-import os
 import shutil
 import signal
 import subprocess
 import sys
 import sysconfig
-import time
 from pathlib import Path
 
 import pytest
 
-from botschool import lock
-from botschool.errors import BotschoolError
-from botschool.lock import NAME, locked
+from botschool.lock import NAME
 from running import call, finish, one_sentence, start, write_experiment
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals and locks")
@@ -65,47 +59,6 @@ def test_a_killed_command_leaves_no_lock(evolving):
     assert call(*arguments, "-s", 5, "--resume", "--generations", 1)[0] == 0
 
 
-def test_a_file_system_without_locks_is_a_warning(tmp_path, monkeypatch, capsys):
-    def refuse(*_):
-        raise OSError(errno.ENOLCK, "No locks available")
-
-    monkeypatch.setattr(fcntl, "lockf", refuse)
-    with locked(tmp_path, "the run with seed 1"):
-        pass
-    assert "warning: " in (said := capsys.readouterr().err) and "without locks" in said
-
-
-def test_a_lock_whose_file_was_removed_meanwhile_is_taken_anew(tmp_path, monkeypatch):
-    """Another command has removed the file between opening and locking it."""
-    lockf, removed = fcntl.lockf, []
-
-    def slow(file, *rest):
-        if not removed:
-            removed.append((tmp_path / NAME).unlink())
-        return lockf(file, *rest)
-
-    monkeypatch.setattr(fcntl, "lockf", slow)
-    with locked(tmp_path, "the run"):
-        other = "import sys; from botschool.lock import locked; from pathlib import Path\n"
-        other += "with locked(Path(sys.argv[1]), 'the run'): print('both')"
-        done = subprocess.run(
-            [sys.executable, "-c", other, tmp_path], capture_output=True, text=True
-        )
-        assert "Another command is writing the run" in done.stderr and not done.stdout
-
-
-def test_a_folder_that_cannot_be_written(tmp_path):
-    (tmp_path / NAME).mkdir()
-    with pytest.raises(BotschoolError, match="cannot be written"), locked(tmp_path, "the run"):
-        pass
-    assert lock.NAME == NAME
-
-
-def heeding_ctrl_c():
-    """Take Ctrl-C as a terminal's processes do: those of pytest-xdist ignore it."""
-    signal.signal(signal.SIGINT, signal.default_int_handler)
-
-
 EARLY = """
 import os, signal, sys
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a process of pytest-xdist ignores it
@@ -129,13 +82,6 @@ def test_ctrl_c_while_the_command_is_imported(module):
     assert done.stderr == "Stopped before anything was done.\n"
 
 
-def pressing_ctrl_c():
-    """Leave a Ctrl-C that waits until the process can answer it."""
-    heeding_ctrl_c()
-    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    os.kill(os.getpid(), signal.SIGINT)
-
-
 COMMAND = Path(sysconfig.get_path("scripts")) / "botschool"
 
 
@@ -153,31 +99,6 @@ def test_the_launcher_holds_ctrl_c_back_and_hands_all_words_on(tmp_path):
     words = ["es", "two words", "", '"quoted"']
     done = subprocess.run([tmp_path / "botschool", *words], capture_output=True, text=True)
     assert done.stdout == f"True {['-c', *words]}\n"
-
-
-def test_ctrl_c_that_waits_is_answered_by_main():
-    done = subprocess.run(
-        [COMMAND, "--version"], capture_output=True, text=True, preexec_fn=pressing_ctrl_c
-    )
-    assert (done.returncode, done.stdout) == (130, "")
-    assert done.stderr == "Stopped before anything was done.\n"
-
-
-@pytest.mark.parametrize("milliseconds", [1, 4, 8, 12, 16, 24, 32, 64])
-def test_ctrl_c_a_moment_after_the_start(milliseconds):
-    process = subprocess.Popen(
-        [COMMAND, "es", "--help"],
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        text=True,
-        preexec_fn=heeding_ctrl_c,
-    )
-    time.sleep(milliseconds / 1000)
-    process.send_signal(signal.SIGINT)
-    errors = process.communicate()[1]
-    silent = (-signal.SIGINT, ""), (0, "")  # before the launcher runs; when all is done
-    said = (130, "Stopped before anything was done.\n"), (130, "Stopped.\n")
-    assert (process.returncode, errors) in silent + said
 
 
 def test_the_command_runs_no_module_of_the_folder_that_it_is_called_in(tmp_path):

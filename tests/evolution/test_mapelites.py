@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from botschool import config, problems
+from botschool import problems
 from botschool.analysis.elites import Elites, Map
 from botschool.errors import BotschoolError
 from botschool.evolution.algorithms.mapelites import MapElites, MapElitesConfig
@@ -96,18 +96,6 @@ def test_behaviour_is_mean_and_spread_of_what_the_robot_observes(environment, tm
         np.testing.assert_allclose(told.behaviour[i], np.mean(episodes, axis=0), atol=1e-6)
 
 
-def test_the_map_fills_and_its_robots_get_better(tmp_path):
-    own = experiment(tmp_path, "CartPole-v1", "MAP-Elites", {"episodes": 1}, **SMALL)
-    run = Run(own, 1)
-    run.advance()
-    first = run.algorithm.fitness
-    for _ in range(30):
-        run.advance()
-    last, there = run.algorithm.fitness, first > -np.inf
-    assert (last > -np.inf).sum() > there.sum() and (last[there] >= first[there]).all()
-    assert last[there].mean() > first[there].mean()
-
-
 @pytest.mark.parametrize(
     ("policy", "algo", "says"),
     [
@@ -166,11 +154,3 @@ def test_a_folder_without_a_map_is_refused(run, refused, tmp_path):
     refused("plotelites", tmp_path / "sss", "-o", tmp_path / "a.png", says="only MAP-Elites")
     (run / "checkpointS1.npz").write_bytes(b"PK")
     refused("plotelites", run, "-o", tmp_path / "a.png", says="damaged")
-
-
-def test_the_example_is_ready(tmp_path):
-    from botschool.paths import material
-
-    own = config.load(material() / "data" / "experiments" / "maphopper.ini")
-    assert run_seeds(own, tmp_path, steps=100_000)
-    assert len(Map(tmp_path, 1).fitness) > 10

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from botschool import config
-from botschool.evolution.run import Run, evolve
-from running import contents, same, write_experiment
+from botschool.evolution.run import Run
+from running import same, write_experiment
 
 LOCOMOTOR = """[EXP]
 environment = {body}BulletEnv-v5
@@ -151,14 +151,6 @@ def test_a_longer_one_starts(name, tmp_path, command):
     assert (tmp_path / "run" / "S11.fit").exists()
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("name", [name for name in FILES if name not in QUICK])
-def test_a_longer_one_goes_on_for_ten_generations(name, tmp_path, command):
-    start(name, tmp_path, command, "--generations", 1)
-    start(name, tmp_path, command, "--generations", 11, "--resume")
-    assert generations(tmp_path) == 11
-
-
 # --- --keep-every: the best of earlier generations stay (docs/specification.md, "Run files").
 
 
@@ -198,25 +190,12 @@ def test_the_best_so_far_of_every_third_generation_is_kept(ini, tmp_path, comman
     assert not np.array_equal(best[KEPT], best[last])
 
 
-def test_nothing_else_changes(ini, tmp_path, command):
-    kept = contents(run_of(command, ini, tmp_path / "kept"))
-    assert command("es", "-f", ini, "-s", 5, "-o", tmp_path / "plain")[0] == 0
-    plain = contents(tmp_path / "plain")
-    assert {name: kept[name] for name in kept if "G" not in name.partition(":")[0]} == plain
-
-
 def test_interrupted_and_resumed_keeps_the_same(ini, tmp_path, command):
     whole = run_of(command, ini, tmp_path / "whole")
     for generations in (1, 2, 7):
         run_of(command, ini, tmp_path / "parts", "--generations", generations, "--resume")
     run_of(command, ini, tmp_path / "parts", "--resume")
     assert same(whole, tmp_path / "parts")
-
-
-@pytest.mark.slow
-def test_runs_side_by_side_keep_the_same(ini, tmp_path, command):
-    whole = run_of(command, ini, tmp_path / "whole", "-n", 2)
-    assert same(whole, run_of(command, ini, tmp_path / "beside", "-n", 2, "-w", 2))
 
 
 def test_a_normalised_robot_is_kept_with_its_vectors(tmp_path, command):
@@ -234,36 +213,3 @@ def test_force_removes_them(ini, tmp_path, command):
     (folder / "bestgS51G3.npy").write_text("of another run")
     assert command("es", "-f", ini, "-s", 5, "-o", folder, "--force")[0] == 0
     assert [path.name for path in folder.glob("bestgS*G*.npy")] == ["bestgS51G3.npy"]
-
-
-def test_a_full_disk_leaves_a_run_that_goes_on(ini, tmp_path, command, monkeypatch):
-    from botschool import config
-    from botschool.errors import BotschoolError
-    from botschool.evolution import run as module
-
-    whole = run_of(command, ini, tmp_path / "whole")
-
-    def full(path, array):
-        if path.name == "bestgS5G6.npy":
-            raise BotschoolError("no space")
-        return save(path, array)
-
-    save = module.save_npy
-    (tmp_path / "parts").mkdir()
-    with monkeypatch.context() as patch:
-        patch.setattr(module, "save_npy", full)
-        with pytest.raises(BotschoolError, match="no space"):
-            evolve(Run(config.load(ini), 5), tmp_path / "parts", keep_every=KEPT)
-    run_of(command, ini, tmp_path / "parts", "--resume")
-    assert same(whole, tmp_path / "parts")
-
-
-def test_it_is_not_for_two_populations(tmp_path, refused):
-    policy = {"nrobots": 2, "heterogeneous": 1}
-    (tmp_path / "own.ini").write_text(
-        "[EXP]\nenvironment = ErPredprey\nalgo = coevo2\n[POLICY]\n"
-        + "".join(f"{key} = {value}\n" for key, value in policy.items())
-        + "[ALGO]\npopsize = 4\nselsize = 2\n"
-    )
-    says = ["--keep-every", "saveeach"]
-    refused("es", "-f", tmp_path / "own.ini", "-o", tmp_path, "--keep-every", 2, says=says)

@@ -5,21 +5,17 @@ import shutil
 import signal
 import subprocess
 import sys
-import threading
 import time
-from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import botschool
 from botschool import config, problems
-from botschool.evolution.run import Run, evolve
 from botschool.interface.runs import HISTORY
 from botschool.problems import Episodes
 from botschool.terminal import readable
-from running import call, contents, environment_of_command, same, write_experiment
+from running import call, environment_of_command, same, write_experiment
 
 POLE = {"environment": "CartPole-v1", "algo": "SSS", "nhiddens": 3, "maxmsteps": 0.02, "popsize": 6}
 
@@ -132,12 +128,6 @@ def test_summary_counts_and_bounds_the_runs(runs):
     assert len(runs[:2]) == 2 and np.isnan(runs[:1].summary()["sd"])
 
 
-def test_loading_gives_the_same_runs(runs):
-    loaded = botschool.load(runs[0].folder)
-    assert loaded.seeds == runs.seeds and (loaded.history == runs.history).all()
-    assert loaded[0].experiment == runs[0].experiment and repr(loaded) == repr(runs)
-
-
 def test_old_results_without_a_checkpoint_are_loaded(runs, tmp_path):
     for name in ("statS2.npy", "bestgS2.npy"):
         (tmp_path / name).write_bytes((runs[1].folder / name).read_bytes())
@@ -159,39 +149,6 @@ def test_plots_pages_and_films_are_written(runs, tmp_path):
     assert "bestgS1.npy" in runs[0].page(tmp_path / "p.html").read_text(encoding="utf-8")
     film = runs[0].film(tmp_path / "f.gif")
     assert film.read_bytes().startswith(b"GIF")
-
-
-def test_a_frame_of_pandas_has_the_same_columns(runs):
-    pytest.importorskip("pandas")
-    assert list(runs.frame().columns) == ["seed", *HISTORY.names]
-    assert list(runs[0].frame().index) == runs[0].history["generation"].tolist()
-
-
-@pytest.mark.slow
-def test_without_a_folder_files_go_with_the_run(tmp_path, monkeypatch):
-    import gc
-
-    monkeypatch.chdir(tmp_path)
-    runs = botschool.evolve(POLE, seeds=[1, 2])
-    folder, first = runs[0].folder, runs[0]
-    assert (folder / "statS2.npy").exists() and not list(tmp_path.iterdir())
-    assert runs[0].page() == Path("pageS1.html") and Path("pageS1.html").exists()
-    del runs
-    gc.collect()
-    assert folder.exists() and len(first.play(2)) == 2
-    del first
-    gc.collect()
-    assert not folder.exists()
-
-
-def test_two_sides_have_runs_but_no_robot_that_plays_alone(tmp_path):
-    run = botschool.evolve(
-        "predprey.ini", folder=tmp_path, ngenerations=2, popsize=4, selsize=2, nhiddens=2,
-        maxsteps=20, episodes=1, samplesize=2,
-    )  # fmt: skip
-    assert len(run.history) == 2 and not list(tmp_path.glob("fresh*")) and "ErPredprey" in repr(run)
-    with pytest.raises(botschool.BotschoolError, match="Two sides"):
-        run.play()
 
 
 # --- stopping
@@ -227,14 +184,6 @@ def test_ctrl_c_leaves_runs_that_resume_to_the_same_bits(tmp_path):
     subprocess.run([*command, "again"], check=True)
     subprocess.run([sys.executable, script, tmp_path / "whole"], check=True)
     assert same(tmp_path / "stopped", tmp_path / "whole")
-
-
-def test_evolving_works_in_another_thread():
-    found = []
-    thread = threading.Thread(target=lambda: found.append(botschool.evolve(POLE, seeds=[1, 2])))
-    thread.start()
-    thread.join()
-    assert found[0].seeds == [1, 2]
 
 
 # --- a strategy of one's own
@@ -311,15 +260,6 @@ def test_evaluate_takes_saved_robots_with_their_scaling(runs):
     assert both[0] == run.play(3, seed=9).mean() != both[1]
 
 
-def test_threads_evaluate_side_by_side():
-    problem = botschool.problem("CartPole-v1", hidden=8)
-    genotypes = np.stack([problem.initial(1, i) for i in range(50)])
-    with ThreadPoolExecutor(4) as pool:
-        found = list(pool.map(lambda seed: problem.evaluate(genotypes, seed, workers=1), range(8)))
-    for seed, (returns, _) in enumerate(found):
-        assert returns.tolist() == problem.evaluate(genotypes, seed)[0].tolist()
-
-
 # --- errors
 
 
@@ -363,17 +303,6 @@ def test_errors_are_one_sentence(asked, says, tmp_path, monkeypatch):
     assert not list(tmp_path.iterdir())
 
 
-def test_remedies_are_those_of_python(tmp_path):
-    botschool.evolve(POLE, folder=tmp_path)
-    with pytest.raises(botschool.BotschoolError) as raised:
-        botschool.evolve(POLE, folder=tmp_path)
-    assert "resume=True" in str(raised.value) and "force=True" in str(raised.value)
-    assert "--" not in str(raised.value) and "(-" not in str(raised.value)
-    botschool.evolve(POLE, folder=tmp_path, force=True)
-    with pytest.raises(botschool.BotschoolError, match="change it back to resume"):
-        botschool.evolve(POLE, folder=tmp_path, resume=True, nhiddens=4)
-
-
 @pytest.mark.slow
 def test_a_script_without_a_guard_evolves_on_one_core(tmp_path):
     script = tmp_path / "script.py"
@@ -386,13 +315,6 @@ def test_a_script_without_a_guard_evolves_on_one_core(tmp_path):
     )
     assert done.returncode == 0 and "note: workers = 1" in done.stderr, done.stderr
     assert "__main__" in done.stderr and "Traceback" not in done.stderr
-
-
-@pytest.mark.parametrize("depth", ["new", "new/and/deep"])
-def test_a_run_by_hand_makes_its_folder_without_a_warning(depth, tmp_path, capsys):
-    run = Run(config.from_dict({"exp": {"environment": "CartPole-v1"}}), 1)
-    assert evolve(run, tmp_path / depth, generations=1)
-    assert capsys.readouterr().err == "" and contents(tmp_path / depth)
 
 
 @pytest.mark.parametrize("kind", ["a file", "below a file", "forbidden"])
@@ -433,11 +355,3 @@ def test_a_training_is_that_of_the_command(tmp_path):
     )
     loaded = botschool.load(mine)
     assert repr(loaded) == repr(agent) and np.array_equal(loaded.returns, agent.returns)
-
-
-@pytest.mark.slow
-def test_another_engine_is_told(capsys):
-    pytest.importorskip("stable_baselines3")
-    agent = botschool.train("CartPole-v1", algo="a2c", steps=200)
-    assert "Stable-Baselines3 trains CartPole-v1 by a2c" in capsys.readouterr().err
-    assert len(agent.play(2)) == 2

@@ -48,21 +48,6 @@ def test_the_last_line_reports_them_with_an_interval(workers, tmp_path):
         assert line.startswith(f"seed {seed}: ") and line.endswith(told)
 
 
-def test_other_files_are_as_without_them(tmp_path, monkeypatch):
-    own = config.load(single(tmp_path))
-    assert run_seeds(own, tmp_path / "with")
-    from botschool.evolution.run import Run
-
-    monkeypatch.setattr(Run, "measure", lambda run, files: None)
-    assert run_seeds(own, tmp_path / "without")
-    files = contents(tmp_path / "with")
-    files.pop("freshS1.txt")
-    assert files == contents(tmp_path / "without")
-    monkeypatch.undo()  # a finished run of an older version gets them by --resume
-    assert run_seeds(own, tmp_path / "without", resume=True)
-    assert contents(tmp_path / "with") == contents(tmp_path / "without")
-
-
 def test_a_run_that_goes_on_measures_its_new_best_robot(tmp_path):
     own = experiment(tmp_path, maxmsteps=0.02)
     assert run_seeds(own, tmp_path / "parts", steps=500)
@@ -104,18 +89,6 @@ def test_plotave_reports_them_and_warns_of_lucky_numbers(pepisodes, remove, says
     else:
         mixed = "best robots, in fresh episodes or post-evaluated"
         assert title == (mixed if "2" in remove else "best post-evaluated fitness")
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("damage", ["", "1\ntwo\n", "nan\n", "\x80"])
-def test_a_damaged_file_is_left_out_in_a_sentence(damage, tmp_path):
-    own = config.load(single(tmp_path))
-    assert run_seeds(own, tmp_path / "o")
-    (tmp_path / "o/freshS1.txt").write_bytes(damage.encode("latin-1"))
-    for command in ("plotave", "plotstat"):
-        code, _, errors = call(command, tmp_path / "o", "-o", tmp_path / f"{command}.png")
-        assert code == 0 and "--resume" in errors and "Traceback" not in errors
-        assert "skipped: " in errors and "freshS1.txt" in errors
 
 
 def test_intervals_are_students(tmp_path):

@@ -42,14 +42,6 @@ def test_archive_may_name_what_only_archivestar_uses(differentiated, tmp_path, c
     np.testing.assert_array_equal(first, second)
 
 
-def test_archive_does_not_prefer_strong_opponents(tmp_path, refused):
-    load(tmp_path, text("popsize = 1", SIDES, "ErPredprey"), "archive")
-    path = tmp_path / "theirs.ini"
-    path.write_text(path.read_text().replace("popsize = 1", "preferential = 5"))
-    says = ["line 5", "preferential = 5", "archivestar"]
-    refused("es", "-f", path, "-o", tmp_path / "no", says=says)
-
-
 @pytest.mark.parametrize("algo", ["CMA-ES", "xNES", "sNES"])
 def test_batchsize_is_popsize(algo, tmp_path):
     assert load(tmp_path, text("batchSize = 12"), algo).algo.popsize == 12
@@ -67,22 +59,6 @@ def test_the_section_of_the_environment_gives_its_options(tmp_path):
     options = {"map_name": "8x8", "is_slippery": False, "n": 0.5, "sizes": [1, 2], "verbose": 1}
     assert keywords(experiment.exp.options) == options
     assert config.from_dict(config.to_dict(experiment)) == experiment
-
-
-def test_a_native_problem_runs_without_the_section(tmp_path, command):
-    load(tmp_path, text("maxmsteps = 1", more="[ENV]\nmarkov = 0\n"))
-    code, _, errors = command(
-        "es", "-f", tmp_path / "theirs.ini", "-o", tmp_path / "out", "--generations", 1
-    )
-    assert code == 0 and errors.count("\n") == 1
-    assert "section [ENV] is left out: CartPole-v1 has no options" in errors
-
-
-def test_the_section_and_options_exclude_each_other(tmp_path, refused):
-    load(tmp_path, text(environment="FrozenLake-v1", more="[ENV]\nmap_name = 8x8\n"))
-    path = tmp_path / "theirs.ini"
-    path.write_text(path.read_text().replace("[ALGO]", "options = is_slippery=False\n[ALGO]"))
-    refused("es", "-f", path, says=["line 9", "[ENV]", "options", "keep one"])
 
 
 @pytest.mark.parametrize("key", sisters.NEEDLESS)

@@ -60,16 +60,6 @@ def test_or_it_is_said_once(name, workers, tmp_path, capfd):
 
 
 @pytest.mark.slow
-def test_what_shows_late_is_said_at_the_end_and_when_a_robot_is_shown(tmp_path, command, capfd):
-    own = experiment(tmp_path, "odd_envs:GetsHarderLate-v0", maxmsteps=0.002)
-    assert run_seeds(own, tmp_path / "run")
-    assert NOTE in capfd.readouterr().err
-    say_unrepeatable.cache_clear()
-    write_experiment(tmp_path, "odd_envs:DrawsOnItsOwn-v0")
-    assert NOTE in command("es", "-f", tmp_path / "own.ini", "-p", "--render", "none")[2]
-
-
-@pytest.mark.slow
 @pytest.mark.parametrize("name", ["OrdersTexts", "HashesTexts", "KnowsProcess"])
 def test_what_differs_between_processes_is_said(name, tmp_path, capfd):
     own = experiment(tmp_path, f"odd_envs:{name}-v0", maxmsteps=0.0005)
@@ -80,27 +70,6 @@ def test_what_differs_between_processes_is_said(name, tmp_path, capfd):
     say_unrepeatable.cache_clear()
     assert run_seeds(own, tmp_path / "parts", resume=True)
     assert capfd.readouterr().err.count(NOTE) == 1
-
-
-@pytest.mark.slow
-def test_a_robot_is_shown_by_a_process_that_has_not_loaded_torch(tmp_path):
-    pytest.importorskip("torch")
-    write_experiment(tmp_path, "odd_envs:ImportsLate-v0")
-    shown = call("es", "-f", tmp_path / "own.ini", "-p", "--render", "none")
-    assert shown[0] == 0 and NOTE not in shown[2]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("game", "repeats"), [("Carries", True), ("Shares", False)])
-def test_games_repeat_or_it_is_said(game, repeats, tmp_path, capfd):
-    pytest.importorskip("pettingzoo")
-    from duels import run, write
-
-    own = write(tmp_path, f"odd_envs:{game}")
-    assert run(own, tmp_path / "one", generations=2)
-    assert run(own, tmp_path / "two", workers=2, generations=2)
-    assert (NOTE in capfd.readouterr().err) is not repeats
-    assert not repeats or same(tmp_path / "one", tmp_path / "two")
 
 
 def test_nobody_else_s_draws_change():
@@ -150,18 +119,6 @@ def test_rewards_whose_sums_overflow(algo, reward, command, tmp_path):
     code, _, errors = command("es", "-f", path, "-o", tmp_path / "run")
     assert code == (0 if reward == "1e99" else 2) and "Traceback" not in errors
     assert code == 0 or "above 1e+100: scale rewards down" in errors
-
-
-def test_no_info_is_needed(tmp_path):
-    assert run_seeds(experiment(tmp_path, "odd_envs:NoInfo-v0", maxmsteps=0.0005), tmp_path / "run")
-
-
-def test_options_may_have_any_name(tmp_path, command):
-    path = write_experiment(tmp_path, "odd_envs:Named-v0", maxmsteps=0.0005)
-    options = "options = name='hilly', wrappers='some'\nalgo ="
-    path.write_text(path.read_text().replace("algo =", options))
-    assert problems.of(load(path))._env.unwrapped.given == ("hilly", "some")
-    assert run_seeds(load(path), tmp_path / "run")
 
 
 @pytest.mark.slow

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from botschool import problems
-from botschool.evolution.evaluate import Evaluator
 from botschool.evolution.record import STAT
 from botschool.evolution.run import Run, evolve
 from botschool.policies.policy import Policy
@@ -117,11 +116,6 @@ def test_steps_stop_at_the_budget_and_not_before(environment, algo, tmp_path):
     assert run.record.steps == steps[-1]
 
 
-def test_a_budget_below_one_step_is_one_generation(tmp_path):
-    assert run_seeds(small(tmp_path, maxmsteps=1e-9), tmp_path)
-    assert np.load(tmp_path / "statS1.npy").size == 6
-
-
 @pytest.mark.parametrize("normalize", [0, 1])
 @every
 def test_saved_robots_have_the_fitness_that_was_recorded(environment, algo, normalize, tmp_path):
@@ -195,35 +189,6 @@ def test_vectors_change_once_a_generation(environment, algo, tmp_path):
     assert any(not np.array_equal(one, two) for one, two in pairwise(before))
 
 
-def test_without_normalisation_nothing_is_collected(tmp_path):
-    run, generations = observed(tmp_path, normalize=0)
-    assert run.evaluator.normalisation is None
-    assert all(post[2].collect is None for _, post in generations)
-    assert not any(name.startswith("evaluator.") for name in run.state())
-
-
-def test_post_evaluation_is_on_fixed_fresh_seeds(tmp_path):
-    _, generations = observed(tmp_path)
-    for measured, post in generations:
-        assert post[2].seed.tolist() == [7 + 100_000] * 4
-        assert post[2].episode.tolist() == [0, 1, 2, 3]
-        assert not set(measured[2].seed.tolist()) & {7 + 100_000}
-        assert measured[2].episode.tolist() == [0, 1, 2] * 6
-
-
-def test_an_evaluator_that_is_broken_off_is_as_before(tmp_path):
-    run = Run(small(tmp_path), seed=7)
-    evaluator = Evaluator(run.problem, run.policy, 7)
-    candidates, seeds = run.algorithm.ask()
-    before = {name: value.copy() for name, value in evaluator.state().items()}
-    evaluator.measure(candidates, seeds)
-    evaluator.post_evaluate(candidates[0])
-    after = evaluator.state()
-    assert all(np.array_equal(before[name], after[name]) for name in before)
-    evaluator.refresh()
-    assert not np.array_equal(evaluator.state()["moments"], before["moments"])
-
-
 @pytest.mark.parametrize("algo", ALGORITHMS)
 def test_replications_are_runs_with_consecutive_seeds(algo, tmp_path):
     experiment = small(tmp_path, algo=algo)
@@ -253,22 +218,6 @@ def test_event_files_hold_the_curves_of_the_stat_file(stopped, tmp_path):
         assert [np.float32(point.value) for point in points] == stat[:, column].tolist()
     numbers = [point.value for point in events.Scalars("generation")]
     assert numbers == list(range(1, len(stat) + 1))
-
-
-def test_event_files_of_long_runs_are_thinned(tmp_path):
-    from tensorboard.backend.event_processing.event_accumulator import EventAccumulator
-
-    from botschool.evolution.events import Events
-
-    rows = np.zeros((5000, 6))
-    rows[:, 0] = 40 * np.arange(1, 5001)
-    events = Events(tmp_path / "tensorboardS1", 200_000)
-    for first in range(0, 5000, 100):
-        events.append(first, rows[first : first + 100])
-    (file,) = (tmp_path / "tensorboardS1").iterdir()
-    steps = [p.step for p in EventAccumulator(str(file)).Reload().Scalars("average")]
-    assert 900 < len(steps) <= 1001
-    assert np.all(np.diff(steps) >= 200)
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,6 @@ from botschool import config
 from botschool.analysis import coevolution
 from botschool.analysis.populations import Populations, read_population
 from botschool.analysis.tournament import (
-    RESAMPLES,
     Contest,
     global_progress,
     historical_progress,
@@ -22,7 +21,6 @@ from botschool.seeds import POST_EVALUATION_SEED
 from duels import (
     STILL,
     STRAIGHT,
-    driver,
     experiment,
     policy_of,
     random_populations,
@@ -36,21 +34,6 @@ def results(tmp_path):
 
 
 # Files
-
-
-def test_the_best_come_first_by_their_mean_fitness_and_equal_ones_as_they_stand(results):
-    policy = policy_of(results / "own.ini")
-    saved = np.load(results / "S12G10.npy")
-    fitness = np.zeros((6, 3))
-    fitness[:3, 0] = 0.1, 0.1, 0.9  # predators
-    fitness[3:, 1] = 0.3, 0.8, 0.3  # prey
-    np.save(results / "S12FitG10.npy", fitness)
-    loaded = Populations(results, 12, policy).load(10)
-    np.testing.assert_array_equal(loaded.predators, saved[[2, 0, 1]])
-    np.testing.assert_array_equal(loaded.prey, saved[[4, 3, 5]])
-    np.testing.assert_array_equal(loaded.best(1).prey, saved[[4]])
-    unranked = Populations(results, 12, policy).load(20)
-    np.testing.assert_array_equal(unranked.prey, np.load(results / "S12G20.npy")[3:])
 
 
 def damage():
@@ -74,15 +57,6 @@ def test_a_damaged_file_is_refused_in_a_sentence(results, says, spoil):
 
 
 # Who meets whom
-
-
-def test_rows_are_predators_and_columns_are_prey(tmp_path):
-    contest = Contest(config.load(experiment(tmp_path)), seed=1)
-    fitness = contest.meet(np.array([STILL, STRAIGHT]), np.array([STILL, driver(-5, 5), STRAIGHT]))
-    assert fitness[0, :2].tolist() == [0, 0]
-    assert fitness[1, 0] == 1 - 21 / 60  # 830 mm of 40 mm a step
-    # A prey is faster: who drives into a predator that stands still is caught sooner.
-    assert fitness[1, 0] < fitness[0, 2] < fitness[1, 2]
 
 
 def test_the_tables_are_by_generation_and_the_preys_is_seen_from_the_other_side(tmp_path):
@@ -151,35 +125,6 @@ def test_steady_progress_is_its_slope_times_the_mean_distance_of_two_generations
     assert historical_progress(table[::-1]) == pytest.approx(-0.02 * distance)
 
 
-def test_no_change_is_no_progress_even_while_competitors_get_better():
-    table = arms_race(np.zeros(8), 0.05 * np.arange(8))
-    assert historical_progress(table) == pytest.approx(0)
-    assert global_progress(table) == pytest.approx(0)
-
-
-def cycle(generations):
-    """Each generation beats the one before it, as in rock, paper, scissors, and gets nowhere."""
-    turn = 2 * np.pi * np.arange(generations) / 6
-    return 0.5 + 0.4 * np.sin(np.subtract.outer(turn, turn))
-
-
-def test_cycling_is_no_progress():
-    """It is a little below 0: a generation does well against its own time, later ones do not."""
-    table = cycle(36)
-    assert table[1, 0] > 0.8 and table[35, 34] > 0.8
-    assert global_progress(table) == pytest.approx(0)
-    assert -0.06 < historical_progress(table) < 0
-    assert -0.02 < historical_progress(cycle(144)) < 0
-
-
-def test_forgetting_tells_the_two_kinds_of_progress_apart():
-    """Later generations do better against late competitors, and worse against ancient ones."""
-    ahead = np.subtract.outer(np.arange(10), np.arange(10))
-    table = 0.5 + np.where(ahead > 0, -0.02, 0.05) * ahead
-    assert historical_progress(table) == pytest.approx(-0.02 * (10 + 1) / 3)
-    assert global_progress(table) > 0.02
-
-
 def test_indices_are_the_sums_that_their_docstrings_say():
     table = np.random.default_rng(5).random((3, 5, 5))
     pairs = [(i, j) for j in range(5) for i in range(j)]
@@ -207,14 +152,6 @@ def test_intervals_hold_the_true_progress_about_as_often_as_they_say():
         held.append(found.low <= truth <= found.high)
         assert found.low < found.value < found.high
     assert np.mean(held) >= 0.8
-
-
-def test_identical_individuals_have_intervals_of_no_width():
-    fitness = np.broadcast_to(arms_race([0, 0.1], [0, 0.1])[:, :, None, None], (2, 2, 4, 4))
-    table, _ = summarised(fitness, 1)
-    assert table.samples.shape == (RESAMPLES, 2, 2)
-    np.testing.assert_allclose(table.interval[0], table.mean)
-    np.testing.assert_allclose(table.interval[1], table.mean)
 
 
 @pytest.mark.parametrize(

@@ -13,8 +13,7 @@ from botschool.analysis import coevolution
 from botschool.analysis.populations import Populations
 from botschool.analysis.tournament import Contest, master_tournament
 from botschool.errors import BotschoolError
-from browser import Browser, find_browser
-from duels import GENERATIONS, STILL, STRAIGHT, experiment, write_run
+from duels import GENERATIONS, write_run
 from test_analysis import drawn  # noqa: F401
 from test_replay import held
 
@@ -61,23 +60,6 @@ def test_malformed_strings_are_refused_in_a_sentence_that_lists_what_is_there(te
     assert "\n" not in sentence
 
 
-def test_file_names_in_a_cross_test_may_hold_dashes(tmp_path):
-    one, two = tmp_path / "my-run", tmp_path / "your-run-2"
-    for folder in (one, two):
-        folder.mkdir()
-        np.save(folder / "S1G0.npy", np.zeros((2, 2)))
-    request = coevolution.parse(f"c-{one}/S1G0.npy-{two}/S1G0.npy", tmp_path)
-    assert request.files == (one / "S1G0.npy", two / "S1G0.npy")
-    within = coevolution.parse("c-my-run/S1G0.npy-your-run-2/S1G0.npy", tmp_path)
-    assert within.files == request.files
-    with pytest.raises(BotschoolError, match="not name two files"):
-        coevolution.parse("c-my-run/S1G0.npy-", tmp_path)
-    for name in ("a", "b-c", "a-b", "c"):
-        (tmp_path / name).touch()
-    with pytest.raises(BotschoolError, match="more ways than one"):
-        coevolution.parse("c-a-b-c", tmp_path)
-
-
 # The command
 
 
@@ -100,13 +82,6 @@ def test_pairs_are_measured_and_shown(es):
     assert code == 0 and "interval" not in single
 
 
-def test_one_generation_meets_those_before_it(es):
-    code, said, _ = es("m-40-20")
-    assert code == 0
-    assert re.findall(r"^ ?generation (\d+)  ", said, re.M) == ["0", "20", "40"]
-    assert len(re.findall(r"\d\.\d\d \(\d\.\d\d to \d\.\d\d\)", said)) == 6
-
-
 @pytest.mark.parametrize(
     ("text", "missing", "takes_part"),
     [
@@ -120,13 +95,6 @@ def test_the_nearest_generations_take_part_with_a_warning(es, text, missing, tak
     code, said, _ = es(text)
     assert f"warning: {missing} not saved; the nearest take part: {takes_part}\n" in said
     assert code == 0
-
-
-def test_the_nearest_generation_is_shown_with_a_warning(es):
-    _, asked, _ = es("p-11-2")
-    _, saved, _ = es("p-10-2")
-    warning = "warning: generation 11 is not saved; the nearest takes part: generation 10\n"
-    assert asked.replace(warning, "") == saved and warning in asked
 
 
 def test_without_a_run_of_your_own_the_one_of_the_course_takes_part(command, tmp_path, monkeypatch):
@@ -145,26 +113,10 @@ def test_without_a_run_of_your_own_the_one_of_the_course_takes_part(command, tmp
     assert code == 0 and "generation 40: fitness" in said and "comes with" not in note
 
 
-def test_all_generations_meet(es, results):
-    code, said, _ = es("M-40-10", "-w", 2)
-    assert code == 0
-    for words in ("Later predators do ", "Later prey do ", "historical progress", "before it"):
-        assert words in said
-    code, other, _ = es("M-40-10")
-    assert other == said
-
-
 def test_two_runs_meet(es, results):
     code, said, _ = es("c-S12G0.npy-S12G40.npy")
     assert code == 0
     assert "A is " in said and "predators of B minus those of A" in said
-
-
-def test_the_table_of_one_generation_is_a_row_of_that_of_all(es):
-    _, row, _ = es("m-40-10")
-    _, all_of_them, _ = es("M-40-10")
-    fitness = re.findall(r"^ generation \d+ +(\d\.\d\d) ", row, re.M)
-    assert len(fitness) == 4 and f" 40 {' '.join(fitness)} " in " ".join(all_of_them.split())
 
 
 @pytest.mark.parametrize(
@@ -183,24 +135,6 @@ def test_what_cannot_be_is_refused(results, refused, text, says):
     refused("es", "-f", file, "-s", 12, "-o", results, "-p", "-g", text, says=says)
 
 
-def test_the_wrong_seed_folder_experiment_or_option_is_refused(results, refused, tmp_path):
-    other = experiment(tmp_path / "other", nhiddens=4)
-    own = ("-f", results / "own.ini", "-o", results, "-p", "-g")
-    refused("es", *own, "p-10-2", "-s", 3, says="seeds there: 12")
-    refused(
-        "es", "-f", other, "-o", results, "-s", 12, "-p", "-g", "p-10-2", says="holds 6 networks"
-    )
-    refused("es", *own[:2], "-o", tmp_path / "none", "-p", "-g", "p-10-2", says="no folder")
-    refused("es", *own, "m-40-10", "-s", 12, "--video", "a.mp4", says="only measures")
-    refused("es", *own, results / "S12G10.npy", says="whole populations")
-
-
-def test_a_saved_pair_is_still_shown(es, results):
-    np.save(results / "pair.npy", np.concatenate([STRAIGHT, STILL]))
-    code, said, _ = es(results / "pair.npy", "--render", "none")
-    assert code == 0 and f"fitness {1 - 21 / 60:.4f}  steps 21" in said
-
-
 def test_a_replay_says_who_meets_whom(es, results):
     page = results / "chase.html"
     code, _, _ = es("P-10-2", "--replay", page)
@@ -208,22 +142,6 @@ def test_a_replay_says_who_meets_whom(es, results):
     assert code == 0 and "generation 10" in data["about"] and "predator's" in data["about"]
     assert [episode["label"] for episode in data["episodes"]][2] == "predator 2, prey 1"
     assert {name for name, *_ in data["scene"]["closeups"]} == {"predator", "prey"}
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(not find_browser(), reason="no Chromium")
-def test_the_replay_shows_the_pair_of_the_episode(es, results, tmp_path):
-    es("P-10-2", "--replay", results / "chase.html")
-    browser = Browser(tmp_path / "profile")
-    try:
-        browser.open(results / "chase.html", "#episode=3")
-        about = "document.querySelector('#about').innerText"
-        assert browser.run(about).endswith("predator 2, prey 1")
-        browser.press("PageDown")
-        browser.wait(f"{about}.endsWith('predator 2, prey 2')")
-        assert not browser.errors
-    finally:
-        browser.close()
 
 
 @pytest.mark.slow
@@ -248,24 +166,6 @@ def test_the_tournament_is_drawn_with_its_numbers_beside_it(results, command, dr
         assert float(row["low"]) <= float(row["fitness"]) <= float(row["high"])
     image = axes[0].images[0].get_array()
     np.testing.assert_array_equal(image, expected["predators"].mean)
-
-
-def test_a_picture_is_named_when_it_is_there(results, command, monkeypatch):
-    def interrupted(*arguments):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(coevolution, "draw", interrupted)
-    picture = results / "all.png"
-    code, said, _ = command("tournament", results, "-f", results / "own.ini", "-o", picture)
-    assert code == 130 and "Later prey do " in said and "all.png" not in said
-
-
-def test_generations_and_individuals_are_chosen(results, command):
-    own = ("tournament", results, "-f", results / "own.ini", "--best", 2)
-    _, listed, _ = command(*own, "--generations", "40, 0,20")
-    _, every, _ = command(*own, "--every", 20)
-    assert listed == every and "the 2 best predators and prey of each of 3" in every
-    assert "generation 40 reach" in every and "-o PICTURE.png" in every
 
 
 def test_a_tournament_that_cannot_be_is_refused(results, refused, tmp_path):

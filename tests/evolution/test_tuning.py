@@ -5,12 +5,9 @@ import shutil
 import pytest
 
 from botschool import config
-from botschool.evolution import progress
-from botschool.evolution.limit import Limit
 
 optuna = pytest.importorskip("optuna")
 
-from botschool.analysis import tuning  # noqa: E402
 from botschool.analysis.tuning import Plan, space_of, tune  # noqa: E402
 from botschool.rl.study import Log  # noqa: E402
 
@@ -46,11 +43,6 @@ def test_a_file_marks_what_to_tune(plan):
         "popsize": [4.0, 6.0],
         "nhiddens": ("2", "5"),
     }
-
-
-def test_without_marks_the_usual_ones_of_the_algorithm_are_tuned(tmp_path):
-    (tmp_path / "pole.ini").write_text(INI)
-    assert list(space_of(config.load(tmp_path / "pole.ini"))) == ["mutrate"]
 
 
 @pytest.mark.parametrize(
@@ -123,47 +115,3 @@ def test_the_command(tmp_path, command, monkeypatch):
     assert code == 0 and "best experiment: t/pole/best.ini" in said
     assert command("es", "-f", "t/pole/best.ini", "--steps", 100, "-o", "r")[0] == 0
     assert command("es", "-f", "pole.ini", "--steps", 100, "-o", "s")[0] == 0
-
-
-def test_values_that_grow_without_bound_end_a_trial(plan, monkeypatch):
-    def broken(run, steps):
-        raise run.problem.broken("a return of nan", 1, 0)
-
-    monkeypatch.setattr(tuning, "_measured", broken)
-    trial = optuna.trial.FixedTrial({})
-    assert tuning._attempt(plan, trial, {}, lambda: False) == (
-        tuning.IMPOSSIBLE,
-        optuna.trial.TrialState.PRUNED,
-    )
-
-
-class Fake:
-    """A run as `messages` sees it, of which a share is done."""
-
-    seed, progress, limit = 3, 0.0, Limit(generations=100)
-
-    def __init__(self):
-        self.record = type("Record", (), {"generation": 0, "steps": 0})()
-
-    def line(self):
-        return f"generation {self.record.generation}"
-
-
-@pytest.mark.parametrize(
-    ("seconds", "told"), [(100.0, ["seed 3: about 2.8 hours left at this speed"]), (0.1, [])]
-)
-def test_a_long_run_says_how_long_it_takes(seconds, told, monkeypatch):
-    now, lines, run = 50.0, [], Fake()
-    monkeypatch.setattr(progress.time, "monotonic", lambda: now)
-    with progress.messages(False, lines.extend) as report:
-        for generation in range(60):
-            run.record.generation = generation
-            report(run)
-            now += seconds
-    assert [line for line in lines if "left" in line] == told
-    assert len(lines) == 59 + len(told)
-
-
-def test_durations_are_said_in_words():
-    said = [progress.lasting(each) for each in (0.2, 40, 200, 9000, 400_000)]
-    assert said == ["1 second", "40 seconds", "3.3 minutes", "2.5 hours", "4.6 days"]

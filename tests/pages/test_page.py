@@ -5,14 +5,12 @@ They need the core for pages; `make test-all` builds it.
 
 import hashlib
 import json
-import math
 import os
 import re
 import shutil
 import subprocess
 import sys
 from dataclasses import replace
-from decimal import Decimal, localcontext
 from pathlib import Path
 
 import numpy as np
@@ -20,12 +18,10 @@ import pytest
 
 from botschool import config, page
 from botschool.analysis.tournament import Contest
-from botschool.config import from_dict, to_dict
+from botschool.config import from_dict
 from botschool.errors import BotschoolError
-from botschool.evolution.algorithms.openaies import BETA1, BETA2
 from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.run import Run, evolve
-from botschool.linear import power
 from botschool.page.training import page_data, settings_of, write_training_page
 from botschool.problems.native import NativeProblem
 from botschool.render.scenes import make_scene
@@ -167,19 +163,6 @@ def test_run_files_are_the_command_s(problem, algo, tmp_path):
     assert evolved_by_node(experiment, 3, tmp_path) == expected
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("algo", ["OpenAI-ES", "SSS", "coevo2"])
-@pytest.mark.parametrize("problem", [*PROBLEMS, "ErPredprey"])
-def test_a_core_without_simd_gives_the_command_s_files(problem, algo, baseline, tmp_path):
-    """The kernels compiled for WebAssembly without vector instructions."""
-    if (algo == "coevo2") != (problem == "ErPredprey"):
-        pytest.skip("coevo2 has two robots, the others one")
-    race = algo == "coevo2"
-    experiment = predators_and_prey() if race else experiment_of(problem, algo)
-    expected = digests_of_the_command(experiment, 3, tmp_path / "run")
-    assert evolved_by_node(experiment, 3, tmp_path, baseline(problem)) == expected
-
-
 @pytest.fixture(scope="module")
 def baseline():
     """Return the core of a problem, compiled without vector instructions."""
@@ -271,15 +254,6 @@ def test_trainings_are_the_command_s(env, given, tmp_path):
     assert answer["files"] == expected
 
 
-@built
-@pytest.mark.long
-@pytest.mark.parametrize(("name", "seed"), [("acrobot", 1), ("discrim", 3), ("cartpole", 7)])
-def test_whole_runs_are_the_command_s(name, seed, tmp_path):
-    experiment = config.load(ROOT / f"data/experiments/{name}.ini")
-    expected = digests_of_the_command(experiment, seed, tmp_path / "run")
-    assert evolved_by_node(experiment, seed, tmp_path) == expected
-
-
 @pytest.mark.parametrize(
     "problem", [*PROBLEMS, "PlanarWalker2D-v0", "SpatialHumanoid-v0", "ErPredprey"]
 )
@@ -315,23 +289,6 @@ def test_the_tables_are_numpy_s():
     folder = ROOT / "lib/evolution"
     made = subprocess.run([sys.executable, folder / "ziggurat.py"], capture_output=True, check=True)
     assert made.stdout == (folder / "ziggurat.hpp").read_bytes()
-
-
-def test_adam_s_powers_leave_runs_as_they_were():
-    """Our powers are rounded once, the C library's were not. From generation 37,412 on neither
-    counts."""
-    one, other = Decimal(BETA1), Decimal(BETA2)
-    first, second = Decimal(1), Decimal(1)
-    with localcontext() as context:
-        context.prec = 50
-        for t in range(1, 37_412):
-            first, second = first * one, second * other
-            for size in (0.01, 0.02):
-                step = size * math.sqrt(1 - BETA2**t) / (1 - BETA1**t)
-                assert step == size * math.sqrt(1 - float(second)) / (1 - float(first))
-            assert power(BETA2, t) == float(second)
-            assert power(BETA1, t) == float(first) or float(first) < 1e-300
-        assert 1 - float(second * other) == 1 - float(first * one) == 1
 
 
 # Taking a robot apart
@@ -437,85 +394,6 @@ def test_a_page_s_hands_do_what_they_say(problem, changes, tmp_path):
     np.testing.assert_array_equal(benched(experiment, genotype, changes, tmp_path), expected)
 
 
-@built
-@pytest.mark.parametrize("env", ["Pendulum-v1", "CartPole-v1"])
-def test_hands_on_an_agent_do_what_they_say(env, tmp_path):
-    """Blind a sensor after 5 steps, cut a neuron after 9: as the agent does in Python."""
-    from botschool import _core
-
-    settings = settings_of(env, 3)
-    ppo = files.make(settings)
-    for _ in range(2):
-        ppo.collect()
-        ppo.update()
-    data = page_data(settings, ppo)
-    inputs = data["inputs"]
-    seen = ppo.core.observed.ravel().tolist() if ppo.normalize else []
-    given = {"core": core_file(data), "experiment": data["experiment"], "seed": 5}
-    given |= {"changes": [[5, "blind", 1, 0], [9, "cut", inputs + 3, 0]]}
-    given |= {"genotype": ppo.parameters.tolist(), "normalisation": seen}
-    (tmp_path / "given.json").write_text(json.dumps(given))
-    found = np.array(node(tmp_path, BENCH.replace("GIVEN", f'"{tmp_path}/given.json"')))
-
-    stepper = _core.make_stepper(data["experiment"]["problem"])
-    stepper.set(data["experiment"]["limit"])
-    stepper.start(5, 0)
-    rows = []
-    for step in range(40):
-        if step == 9:
-            weights = ppo.weights
-            weights["actor.0.weight"][3] = weights["actor.0.bias"][3] = 0
-            weights["actor.1.weight"][:, 3] = 0
-        observation = stepper.observation
-        if step >= 5:
-            observation[1] = 0
-        action = np.atleast_1d(ppo.act(observation[None])[0]).astype(np.float64)
-        reward, ended = stepper.step(action)
-        outputs, _ = ppo.forward(observation[None])
-        rows.append([reward, *stepper.state, *outputs[0]])
-        if ended:
-            break
-    size = len(rows[0]) - ppo.outputs
-    np.testing.assert_array_equal(found[:, :size], [row[:size] for row in rows])
-    np.testing.assert_array_equal(found[:, -ppo.outputs :], [row[size:] for row in rows])
-
-
-def frozen_by_python(experiment, genotype, when):
-    """Each step from `when` on is the first one after the same `when` steps."""
-    from botschool import _core
-
-    native = NativeProblem(experiment.exp.environment)
-    policy, stepper = native.policy(experiment.policy), _core.make_stepper(native.dynamics)
-    stepper.set(native.steps(experiment.policy.maxsteps))
-    stepper.start(5, 0)
-    policy.load(genotype, None)
-    policy.reset(5, 0)
-    seen, rows = [], []
-    for step in range(40):
-        if step >= when:
-            policy.reset(5, 0)
-            for observation in seen:
-                policy.act(observation.copy())
-        else:
-            seen.append(stepper.observation.copy())
-        action = np.atleast_1d(policy.act(stepper.observation)).astype(np.float64)
-        reward, ended = stepper.step(action)
-        rows.append([reward, *stepper.state, *policy.network.activations])
-        if ended:
-            break
-    return np.array(rows)
-
-
-@built
-@pytest.mark.parametrize("architecture", [1, 2, 3])
-@pytest.mark.parametrize("problem", ["ErDiscrim", "ErDpole"])
-def test_frozen_memory_is_what_the_steps_before_left(problem, architecture, tmp_path):
-    experiment = experiment_of(problem, "OpenAI-ES", architecture=architecture)
-    genotype = NativeProblem(problem).policy(experiment.policy).initial(4)
-    found = benched(experiment, genotype, [[6, "freeze", 0, 0]], tmp_path)
-    np.testing.assert_array_equal(found, frozen_by_python(experiment, genotype, 6))
-
-
 # The page
 
 
@@ -577,21 +455,6 @@ def test_an_algorithm_that_pages_lack_is_refused(algo, refused, tmp_path):
     assert not (tmp_path / "a.html").exists()
 
 
-@pytest.mark.parametrize(
-    ("change", "sentence"),
-    [
-        ({"environment": "LunarLander-v3"}, "native problems"),
-        ({"algo": "CMA-ES"}, "OpenAI-ES or SSS"),
-    ],
-)
-def test_what_cannot_be_a_page_is_refused(change, sentence, tmp_path):
-    parts = to_dict(experiment_of("Acrobot-v1", "OpenAI-ES"))
-    parts["exp"] |= change
-    parts["algo"] = {}
-    with pytest.raises(BotschoolError, match=sentence):
-        page.write_page(tmp_path / "a.html", from_dict(parts))
-
-
 HASH = """(async () => {
   const found = {};
   for (const [name, bytes] of Object.entries(runFiles(result.seed, result))) {
@@ -617,21 +480,6 @@ DRAG = """(() => {
   send("pointermove", 200, 150);
   send("pointerup", 200, 150);
 })()"""
-
-
-@built
-@pytest.mark.long
-@pytest.mark.parametrize("algo", ["OpenAI-ES", "SSS"])
-@pytest.mark.parametrize("problem", PROBLEMS)
-def test_runs_in_a_browser_are_the_command_s(browser, problem, algo, tmp_path):
-    experiment = experiment_of(problem, algo)
-    expected = digests_of_the_command(experiment, 3, tmp_path / "run")
-    path, _ = written(experiment, tmp_path)
-    browser.open(path)
-    browser.wait("bench && game.step > 0")
-    browser.run("byId('evolve').click()")
-    browser.wait("!byId('downloads').hidden")
-    assert browser.run(HASH) == expected
 
 
 ROWS = (
@@ -667,23 +515,6 @@ def test_predators_and_prey_in_a_browser(browser, tmp_path):
     browser.run("byId('home').click()")
     assert browser.run("[...bench.genotype]") == both.ravel().tolist()
     assert browser.errors == []
-
-
-@built
-def test_an_arms_race_in_a_browser(browser, tmp_path):
-    experiment = predators_and_prey()
-    expected = digests_of_the_command(experiment, 3, tmp_path / "run")
-    path, _ = written(experiment, tmp_path)
-    browser.open(path)
-    browser.wait("bench && game.step > 0")
-    browser.run("byId('field-selsize').value = 6; byId('evolve').click()")
-    assert "selsize = 6 is more than popsize = 5" in browser.run("byId('said').textContent")
-    browser.run("byId('field-selsize').value = 2; byId('evolve').click()")
-    browser.wait("!byId('downloads').hidden")
-    assert browser.run(HASH) == expected
-    last = np.load(tmp_path / "run/S3G4.npy")
-    assert browser.run("[...bench.genotype]") == [*last[0], *last[5]]
-    assert browser.run("rivals.at(-1).generation") == 4
 
 
 MODELS = """(async () => {
