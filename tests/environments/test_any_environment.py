@@ -60,24 +60,6 @@ def test_what_the_space_does_not_contain(wrong):
         flattener(wrong)
 
 
-def test_pictures_too_large_for_a_flat_network_are_refused():
-    def flat(side: int) -> Policy:
-        flattener = Flattener(spaces.Box(0, 255, (side, side, 3), np.uint8), "any")
-        asked = interface(flattener.size, spaces.Discrete(2), 0, flattener.image)
-        return Policy("any", asked, config.PolicyConfig(nhiddens=0))
-
-    assert flat(100).spec.inputs == 30_000
-    with pytest.raises(BotschoolError, match=r"30603 values.*at most 30000: .*ResizeObservation"):
-        flat(101)
-
-
-def test_what_is_left_out_is_said_once(tmp_path, capsys):
-    for _ in range(2):
-        problems.make("tiny_envs:Nested-v0")
-    note = "note: tiny_envs:Nested-v0: 'hint' of its observations is left out (Text, no numbers)\n"
-    assert capsys.readouterr().err in (note, "")  # "" where another test has made it before
-
-
 # actions
 
 
@@ -112,23 +94,6 @@ def test_they_evolve_alike_with_workers_and_resumed(name, tmp_path):
     assert same(tmp_path / "whole", tmp_path / "parts")
 
 
-@pytest.mark.parametrize("name", ["Blackjack-v1", "Taxi-v4", "FrozenLake-v1"])
-def test_toy_texts_evolve(name, tmp_path):
-    policy = {"maxsteps": 10, "episodes": 1, "pepisodes": 1}
-    own = experiment(tmp_path, name, policy=policy, maxmsteps=0.0001)
-    assert run_seeds(own, tmp_path / "run")
-
-
-def test_car_racing_evolves_and_is_filmed(command, tmp_path):
-    pytest.importorskip("Box2D")
-    policy = {"maxsteps": 3, "episodes": 1, "pepisodes": 1, "normalize": 1}
-    ini = write_experiment(tmp_path, "CarRacing-v3", policy=policy, popsize=2, maxmsteps=2e-5)
-    assert command("es", "-f", ini, "-o", tmp_path)[0] == 0
-    assert np.load(tmp_path / "bestgS1.npy").size == 3 * (96 * 96 * 3 + 3) + 2 * 96 * 96 * 3
-    film = ("-p", "-g", tmp_path / "bestgS1.npy", "--video", tmp_path / "car.mp4")
-    assert command("es", "-f", ini, *film, "--episodes", 1)[0] == 0
-
-
 def loads(library):
     with suppress(OSError):
         return ctypes.CDLL(library)
@@ -152,15 +117,6 @@ def test_mujoco_is_filmed_without_a_display(tmp_path):
     import imageio.v3
 
     assert imageio.v3.imread(film).std() > 5
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere there is a display")
-def test_mujoco_that_cannot_draw_says_what_to_install(monkeypatch):
-    monkeypatch.delenv("MUJOCO_GL", raising=False)
-    monkeypatch.setattr(making, "DRAWING", (("egl", "libnothing.so"),))
-    with pytest.raises(BotschoolError, match=r"MuJoCo draws Hopper-v5.*libegl1"):
-        making.make_env("Hopper-v5", render_mode="rgb_array")
-    making.make_env("CartPole-v1", render_mode="rgb_array").close()
 
 
 @pytest.mark.parametrize(
@@ -278,13 +234,6 @@ def test_an_experiment_file_names_wrappers(tmp_path, command):
     assert code == 2 and "wrappers = tiny_envs:Doubled(times=5)" in errors
 
 
-@pytest.mark.parametrize("text", ["7'", "A,,B", "A(x)"])
-def test_a_text_that_names_no_wrapper_gets_a_whole_sentence(text):
-    """Found by `make fuzz` in the config.yaml of a training."""
-    with pytest.raises(BotschoolError, match=r"\.$"):
-        wrappers.parse(text)
-
-
 @pytest.mark.parametrize(
     ("named", "says"),
     [
@@ -308,10 +257,3 @@ def test_wrong_wrappers_are_refused_in_a_sentence(named, says, tmp_path, refused
     ini.write_text(ini.read_text().replace("algo =", f"wrappers = {named}\nalgo ="))
     refused("es", "-f", ini, "-o", tmp_path / "run", says=says)
     assert not (tmp_path / "run").exists()
-
-
-def test_a_native_problem_of_two_robots_takes_no_wrapper():
-    with pytest.raises(BotschoolError, match=r"ErPredprey has several robots.*remove the line"):
-        problems.make("ErPredprey", wrappers="FlattenObservation")
-    with pytest.raises(BotschoolError, match="either other robots or wrappers"):
-        problems.make("ErDiscrim", ["e-puck"], "FlattenObservation")

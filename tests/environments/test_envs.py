@@ -11,10 +11,9 @@ from gymnasium.utils.env_checker import check_env
 import botschool.envs
 from botschool import _core, arena, problems
 from botschool.config import PolicyConfig
-from botschool.envs.simulation import Simulation
 from botschool.errors import BotschoolError
 from botschool.policies.policy import Policy
-from botschool.problems import Episodes, make
+from botschool.problems import make
 
 gymnasium.register_envs(botschool.envs)
 LONGEST = {"Discrim": 500, "DoublePole": 1000, "SwingUp": 1000, "Predator": None, "Prey": None}
@@ -107,35 +106,6 @@ def test_bad_actions_are_refused_in_a_sentence(name):
             refused(lambda bad=bad: env.step(np.full(size, bad)), "finite")
 
 
-@pytest.mark.parametrize("name", LONGEST)
-def test_pictures_follow_the_robots(name):
-    with env_of(name, render_mode="rgb_array") as env:
-        refused(env.unwrapped.render, "before the first reset()")
-        env.reset(seed=3)
-        first = env.render()
-        assert first.dtype == np.uint8 and first.ndim == 3 and first.shape[2] == 3
-        for _ in range(4):
-            env.step(np.full(env.action_space.shape, 0.4, dtype=np.float32))
-        assert np.mean(np.any(env.render() != first, axis=2)) > 1e-4
-
-
-@pytest.mark.parametrize("name", ["SwingUp", "Prey"])
-def test_a_window_opens_and_closes(name):
-    with env_of(name, render_mode="human") as env:
-        env.reset(seed=3)
-        for _ in range(3):
-            env.step(np.zeros(env.action_space.shape, dtype=np.float32))
-
-
-def test_noise_and_steps_can_be_chosen():
-    with env_of("Discrim", noise=0) as env:
-        assert np.all(env.observation_space.low == 0)
-        assert env.reset(seed=1)[0].min() >= 0
-    refused(lambda: env_of("Discrim", noise=-1), "noise")
-    refused(lambda: env_of("Prey", max_steps=0), "max_steps")
-    refused(lambda: Simulation("ErDiscrim", "ansi"), "human, rgb_array")
-
-
 # predator and prey
 
 
@@ -177,18 +147,7 @@ def test_the_chase_of_two_agents_is_the_arena():
     refused(lambda: env.step({"predator": np.zeros(3), "prey": np.zeros(2)}), "has 2 numbers")
 
 
-def test_who_is_caught_gets_the_time_before():
-    env = zoo()(max_steps=100)
-    env.reset(seed=1)
-    rewards, total = {}, dict.fromkeys(("predator", "prey"), 0.0)
-    while env.agents:
-        _, rewards, *_ = env.step({"predator": np.ones(2), "prey": np.zeros(2)})
-        total = {agent: total[agent] + rewards[agent] for agent in total}
-    assert total == rewards == {"predator": 1 - 21 / 100, "prey": 1 - (1 - 21 / 100)}
-
-
 def both_networks(**policy):
-    from botschool.config import PolicyConfig
 
     config = PolicyConfig(nrobots=2, heterogeneous=1, **policy)
     problem = make("ErPredprey")
@@ -228,44 +187,7 @@ def test_opponents_that_cannot_be(tmp_path):
     refused(lambda: env_of("Prey", experiment=tmp_path / "none.ini"), "none.ini")
 
 
-def test_an_opponent_with_another_network(tmp_path):
-    ini = tmp_path / "own.ini"
-    ini.write_text(
-        "[EXP]\nenvironment = ErPredprey\nalgo = SSS\n[POLICY]\nnrobots = 2\nheterogeneous = 1\n"
-        "nhiddens = 3\nnormalize = 1\n[ALGO]\nmaxmsteps = 1\n"
-    )
-    _, policy = both_networks(nhiddens=3, normalize=1)
-    saved = policy.join(policy.initial(1), np.repeat([0.1, 1.0], 24))
-    with env_of("Predator", opponent=saved, experiment=ini) as env:
-        env.reset(seed=1)
-        env.step(np.zeros(2, dtype=np.float32))
-    with env_of("Prey", experiment=ini) as env:
-        env.reset(seed=1)
-        env.step(np.zeros(2, dtype=np.float32))
-    refused(lambda: env_of("Predator", opponent=saved), "shape")
-
-
 # training
-
-
-def trained(steps, n_steps):
-    sb3 = pytest.importorskip("stable_baselines3")
-    with env_of("Discrim") as env:
-        model = sb3.PPO("MlpPolicy", env, n_steps=n_steps, seed=1, device="cpu")
-        model.learn(steps)
-        assert model.num_timesteps >= steps
-        assert np.isfinite(model.logger.name_to_value["train/loss"])
-        action, _ = model.predict(env.reset(seed=1)[0])
-        assert env.action_space.contains(action)
-
-
-def test_ppo_trains_on_discrim():
-    trained(512, 256)
-
-
-@pytest.mark.long
-def test_ppo_trains_on_discrim_for_10_000_steps():
-    trained(10_000, 2048)
 
 
 # --- CartPole with any force: at full force it is Gymnasium's CartPole.
@@ -297,34 +219,10 @@ def test_full_force_is_cartpole(factor):
                 break
 
 
-def test_no_force_lets_the_cart_roll():
-    with gymnasium.make(PUSHED) as env:
-        before, _ = env.reset(seed=1)
-        after, reward, *_ = env.step(np.zeros(1, dtype=np.float32))
-        pushed = gymnasium.make(PUSHED)
-        pushed.reset(seed=1)
-        half = pushed.step(np.full(1, 0.5, dtype=np.float32))[0]
-    assert reward == 1.0
-    assert abs(after[1] - before[1]) < 0.02 < half[1] - before[1]
-
-
 # --- The balancing robot, which lives in a package of its own, as a problem.
 
 
 BALANCE = "BalanceBotBulletEnv-v0"
-
-
-def test_is_found_and_evaluated():
-    pytest.importorskip("balance_bot")
-    problem = problems.make(BALANCE)
-    policy = Policy(BALANCE, problem.interface, PolicyConfig(nhiddens=0, bias=1, out_type=3))
-    genotypes = np.array([[0.0, -10.0, -1.0, 0.0], [0.0, 10.0, 1.0, 0.0]])
-    batch = Episodes.of(np.array([1, 1], dtype=np.uint64), 2)
-    outcome = problem.evaluate(policy, genotypes, None, batch, 1000)
-    assert np.all(outcome.steps[:2] == 500)
-    assert np.all(outcome.steps[2:] < 100)
-    again = problem.evaluate(policy, genotypes, None, batch, 1000)
-    np.testing.assert_array_equal(again.fitness, outcome.fitness)
 
 
 def test_missing_package_is_said_in_a_sentence(monkeypatch):
@@ -333,8 +231,3 @@ def test_missing_package_is_said_in_a_sentence(monkeypatch):
     with pytest.raises(BotschoolError, match=r"pip install -e envs/balance_bot") as raised:
         problems.make(BALANCE)
     assert str(raised.value).count(".") == 1
-
-
-def test_a_name_nearly_right_is_suggested(monkeypatch):
-    with pytest.raises(BotschoolError, match=f"did you mean {BALANCE}"):
-        problems.make("BalanceBotBulletEnv-v1")

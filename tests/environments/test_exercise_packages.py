@@ -1,17 +1,13 @@
 """Each exercise declares the packages that its grader and its solution import."""
 
 import ast
-import os
 import re
-import shutil
-import subprocess
 import sys
-from importlib.metadata import distribution, packages_distributions
+from importlib.metadata import packages_distributions
 from pathlib import Path
 
 import pytest
 
-from botschool import _core
 from botschool.grading.declare.exercise import load_exercise
 
 tomllib = pytest.importorskip("tomllib")
@@ -77,59 +73,3 @@ def test_the_library_imports_only_what_the_project_declares():
 
 def test_a_missing_extra_is_found():
     assert missing({"stable_baselines3", "numpy"}, ("pybullet",)) == {"stable_baselines3"}
-
-
-@pytest.fixture(scope="module")
-def fresh(tmp_path_factory):
-    """Return a Python of an environment that holds botschool and what some extras declare."""
-    made = {}
-
-    def python(extras: tuple[str, ...]) -> Path:
-        if extras not in made:
-            made[extras] = environment(tmp_path_factory.mktemp("environment"), extras)
-        return made[extras]
-
-    return python
-
-
-def environment(folder: Path, extras: tuple[str, ...]) -> Path:
-    uv = Path(sys.executable).with_name("uv")
-    if not uv.is_file():
-        pytest.skip("needs uv")
-    lists = [PROJECT["dependencies"]]
-    lists += [PROJECT["optional-dependencies"][extra] for extra in extras]
-    wanted = [each for requirements in lists for each in requirements]
-    python, options = (
-        folder / "bin" / "python",
-        os.environ | {"UV_INDEX_STRATEGY": "unsafe-best-match"},
-    )
-    subprocess.run([uv, "venv", "-q", "--python", sys.executable, folder], check=True)
-    command = [uv, "pip", "install", "-q", "--python", python, "-c", ROOT / "constraints.txt"]
-    subprocess.run([*command, *wanted], check=True, env=options)
-    ask = [python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))"]
-    packages = Path(subprocess.run(ask, check=True, capture_output=True, text=True).stdout.strip())
-    shutil.copytree(ROOT / "lib" / "botschool", packages / "botschool")
-    for library in Path(_core.__file__).parent.glob("*.so"):
-        shutil.copy(library, packages / "botschool")
-    metadata = Path(str(distribution("botschool").locate_file("")))
-    for each in metadata.glob("botschool-*.dist-info"):
-        shutil.copytree(each, packages / each.name)
-    return python
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("number", [*NUMBERS, "10 without PyBullet"])
-def test_its_own_packages_are_enough_for_all_points(fresh, number):
-    """The solution gets 100 where nothing else is installed than the exercise declares."""
-    number, *less = str(number).split(maxsplit=1)
-    exercise = load_exercise(int(number), ROOT)
-    needed = {extra for task in exercise.tasks for extra in task.extras}  # not PyBullet
-    whole = "pybullet" in exercise.extras and not less
-    python = fresh(exercise.extras if whole else tuple(sorted(needed)))
-    command = "from botschool.cli import main; main()"
-    graded = subprocess.run(
-        [python, "-I", "-c", command, "grade", number, "--submission", "solutions"],
-        cwd=ROOT, capture_output=True, text=True, env=os.environ | {"BOTSCHOOL_COURSE": str(ROOT)},
-    )  # fmt: skip
-    assert graded.returncode == 0, graded.stdout + graded.stderr
-    assert "100 of 100" in " ".join(graded.stdout.split())

@@ -1,7 +1,6 @@
 """A problem has the same names everywhere: in files, in `rl`, in Gymnasium."""
 
 import gymnasium
-import numpy as np
 import pytest
 
 import botschool.envs  # noqa: F401
@@ -11,10 +10,8 @@ from botschool.problems.native import gym_id, own_name
 from botschool.rl import watch
 from botschool.rl.folder import run_of
 from botschool.rl.model import choose
-from botschool.rl.native import PPO
-from botschool.rl.native.discounted import DiscountedReturns
 from botschool.rl.native.problem import native_problem
-from botschool.rl.training import train, train_command
+from botschool.rl.training import train
 
 SAME = [
     ("CartPole-v1", "CartPole-v1", "botschool/CartPole-v1"),
@@ -53,63 +50,11 @@ def test_a_training_is_found_by_every_name(tmp_path):
         watch.Asked(None, tmp_path, name, "ppo").player(1)
 
 
-@pytest.mark.parametrize(
-    ("algo", "options", "why"),
-    [
-        ("a2c", {}, "it has no a2c"),
-        ("ppo", {"wrappers": "FlattenObservation"}, "it takes no wrappers"),
-        ("ppo", {"vec_env": "subproc"}, "it runs all environments in one process"),
-        ("ppo", {"policy": "lstm"}, "it has no lstm policy"),
-        ("ppo", {"params": ["use_sde=true"]}, "it has no use_sde"),
-    ],
-)
-def test_a_sentence_says_why_the_native_engine_does_not_train(
-    algo, options, why, tmp_path, capsys, monkeypatch
-):
-    monkeypatch.setattr("botschool.rl.training.learn", None)
-    options = {"params": [], "policy": None} | options
-    with pytest.raises(TypeError):
-        train_command(algo, "Pendulum-v1", folder=tmp_path, terminal=False, **options)
-    error = capsys.readouterr().err
-    assert f"the native engine cannot train this ({why}), so Stable-Baselines3 does." in error
-
-
 def test_a_file_with_wrappers_says_that_it_runs_in_python(tmp_path):
     file = tmp_path / "w.ini"
     file.write_text("[EXP]\nenvironment = CartPole-v1\nwrappers = FlattenObservation\n")
     [note] = config.load(file).notes
     assert note == "CartPole-v1 runs in Python: the native engine takes no wrappers."
-
-
-@pytest.mark.parametrize(("normalize", "error"), [(False, 1e-12), (True, 0.05)])
-def test_discounted_returns_are_those_of_the_episodes(normalize, error):
-    """In CartPole each step pays 1, so that an episode's length says its discounted return."""
-    gamma = 0.98
-    options = {"gamma": gamma, "learning_rate": 1e-3, "batch_size": 32}
-    ppo = PPO("CartPole-v1", seed=3, n_envs=1, n_steps=300, normalize=normalize, **options)
-    sums, truncated = DiscountedReturns(ppo), 0
-    for update in range(60):
-        ppo.collect()
-        _, returns, lengths = ppo.episodes
-        found = sums.add(returns)
-        lengths = lengths[len(lengths) - len(found) :]
-        if update > 5:
-            assert np.allclose(found, (1 - gamma**lengths) / (1 - gamma), rtol=error)
-        truncated += (lengths == 500).sum()
-        ppo.update()
-    assert truncated
-
-
-def test_tensorboard_shows_distributions_of_the_native_engine(tmp_path):
-    accumulator = pytest.importorskip("tensorboard.backend.event_processing.event_accumulator")
-    run = train("ppo", "Pendulum-v1", tmp_path, steps=10_000, evaluations=1, episodes=1)
-    log = accumulator.EventAccumulator(str(run.path), size_guidance={"histograms": 0})
-    log.Reload()
-    assert np.isfinite(log.Scalars("rollout/discounted_return")[-1].value)
-    for tag in ("actions/0", "rollout/advantage"):
-        shown = log.Histograms(tag)[-1].histogram_value
-        assert sum(shown.bucket) == shown.num > 100
-        assert shown.min < shown.max == shown.bucket_limit[-1]
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,6 @@ pytest.importorskip("pettingzoo")
 
 import plain_algorithms
 from botschool import _core, config, problems
-from botschool.analysis.tournament import Contest, play, summarised
 from botschool.evolution.algorithm import ALGORITHMS as ALGORITHMS_BY_NAME
 from botschool.evolution.coevolution import Coevolution
 from botschool.policies.hyperparameters import PolicyConfig
@@ -34,21 +33,6 @@ def test_each_side_has_a_network_for_what_it_sees_and_does():
     first = policy.initial(7, 2)
     assert first.shape == (2 * policy.nparameters,)
     assert (first[policy.sizes[0] : policy.nparameters] == 0).all()
-
-
-def test_what_lies_beyond_a_network_means_nothing():
-    problem, policy = duel(nhiddens=4)
-    rows = np.array([policy.initial(1, i) for i in range(3)])
-    changed = rows.copy()
-    changed[:, policy.sizes[0] : policy.nparameters] = 99
-    assert (changed != rows).any()
-    episodes = Episodes.of(np.array([5, 6, 7]), 2)
-    before = problem.evaluate(policy, rows, None, episodes, 20)
-    after = problem.evaluate(policy, changed, None, episodes, 20)
-    assert np.array_equal(before.fitness, after.fitness)
-    changed[:, policy.nparameters] += 1  # the other one's first weight
-    other = problem.evaluate(policy, changed, None, episodes, 20)
-    assert not np.array_equal(before.fitness, other.fitness)
 
 
 # episodes
@@ -102,12 +86,6 @@ def test_episodes_depend_on_seed_and_number_alone():
     assert np.array_equal(whole.fitness, again.fitness[:, back])
 
 
-def test_maxsteps_cuts_an_episode():
-    problem, policy = duel(nhiddens=2)
-    outcome = problem.evaluate(policy, policy.initial(1)[None], None, Episodes.of([5], 1), 3)
-    assert outcome.steps.tolist() == [3]
-
-
 # our predators and prey, by both ways
 
 
@@ -141,23 +119,6 @@ def test_an_episode_of_our_face_is_that_of_the_native_problem_in_double_precisio
 BOLD = {"maxsteps": 60, "nhiddens": 0, "winit": 2, "bias": 1}
 
 
-def test_meetings_of_our_face_end_as_those_of_the_native_problem():
-    """In short episodes, as single precision drifts from double; there to the bit."""
-    face = problems.make(FACE, options="max_steps=60", competitive=True)
-    native = problems.make("ErPredprey")
-    policy = face.policy(PolicyConfig(nrobots=2, heterogeneous=1, **BOLD))
-    rows = np.array([policy.initial(3, i) for i in range(14)]).reshape(28, -1)
-    pairs = np.array([2, 2])[:, None] * np.indices((14, 14)).reshape(2, -1) + [[0], [1]]
-    meetings = Episodes(
-        pairs.astype(np.int32), np.full(196, 3, np.uint64), np.zeros(196, np.uint32)
-    )
-    one = face.evaluate(policy, rows, None, meetings, 60)
-    other = native.evaluate(native.policy(policy.config), rows, None, meetings, 60)
-    assert np.array_equal(one.steps, other.steps)
-    assert np.array_equal(one.fitness, [other.fitness, 1 - other.fitness])
-    assert len(set(one.steps.tolist())) > 5
-
-
 def test_a_run_of_our_face_leaves_what_the_native_problem_leaves(tmp_path):
     native = write(tmp_path / "native", "ErPredprey", "archive", "", BOLD)
     face = write(tmp_path / "face", FACE, "archive", "max_steps=60", BOLD)
@@ -185,16 +146,6 @@ def test_they_evolve_alike_with_workers_and_resumed(algo, tmp_path):
     assert same(tmp_path / "whole", tmp_path / "parts")
 
 
-def test_a_worker_that_dies_does_not_show(tmp_path, monkeypatch):
-    own = write(tmp_path)
-    assert run(own, tmp_path / "whole", generations=1)
-    (tmp_path / "life").touch()
-    monkeypatch.setenv("TINY_DIE_ONCE", str(tmp_path / "life"))
-    assert run(own, tmp_path / "died", workers=2, generations=1)
-    assert not (tmp_path / "life").exists()
-    assert same(tmp_path / "whole", tmp_path / "died")
-
-
 def test_each_side_is_ranked_by_its_own_returns(tmp_path):
     own = config.load(write(tmp_path, policy={"episodes": 2}))
     assert run(tmp_path / "own.ini", tmp_path / "run")
@@ -213,20 +164,6 @@ def test_each_side_is_ranked_by_its_own_returns(tmp_path):
             cat, mouse = outcome.fitness.mean(axis=1)
             assert (fitness[i, k], fitness[4 + k, i]) == pytest.approx((cat, mouse))
             assert abs(cat + mouse - 1) > 1e-9
-
-
-@pytest.mark.long
-def test_mice_and_cats_get_better(tmp_path):
-    """Later cats against the mice of the beginning, and later mice against the first cats."""
-    own = write(tmp_path, algo="archive", policy={"episodes": 2, "nhiddens": 0})
-    text = own.read_text().replace("ngenerations = 6", "ngenerations = 40")
-    own.write_text(text.replace("samplesize = 2", "samplesize = 6"))
-    assert run(own, tmp_path / "run")
-    contest = Contest(config.load(own), 3)
-    parts = [np.split(np.load(tmp_path / "run" / f"S3G{g}.npy"), 2) for g in (0, 40)]
-    tables = summarised(play(contest, *zip(*parts, strict=True)), 3)
-    for table in tables:
-        assert table.mean[1, 0] > table.mean[0, 0] + 0.5, table.role
 
 
 # algorithms
@@ -257,21 +194,3 @@ def test_two_returns_that_add_up_to_1_evolve_as_one(algo):
             both = one.summary(), four.summary()
             assert both[1]["predators"] == pytest.approx(4 * both[0]["predators"])
             assert both[1]["prey"] == pytest.approx(both[0]["prey"])
-
-
-def test_strength_on_any_scale():
-    """Minus the fitness of those who met it; unknown ones are as strong as the mean of others."""
-    entry = ALGORITHMS_BY_NAME["archivestar"]
-    settings = entry.config(popsize=1, samplesize=1, ncompetitors=3, addtoarchiveevery=1)
-    star = entry.make(settings, plain_algorithms.initial, 9, constant_sum=False)
-    assert np.isnan(star.strengths[1]).all()
-    star.ask()
-    star.opponents = np.array([[[0, 2, 0]]])
-    star.tell(np.array([[[10.0, 70.0, 20.0], [30.0, 50.0, 40.0]]]))
-    assert star.strengths[1][0] == pytest.approx(-25) and np.isnan(star.strengths[1][1])
-    assert star.strengths[1][2] == pytest.approx(-60)
-    star.generation = 2
-    star.ask()
-    star.opponents = np.array([[[0, 0, 0]]])
-    star.tell(np.zeros((1, 2, 3)))
-    assert star.strengths[1][0] == pytest.approx(-22.5)

@@ -1,8 +1,6 @@
 """PettingZoo environments at the command: runs, tournaments, films, and what is refused."""
 
-import importlib
 import re
-import sys
 
 import numpy as np
 import pytest
@@ -13,7 +11,7 @@ from botschool import problems
 from botschool.errors import BotschoolError
 from botschool.policies.hyperparameters import PolicyConfig
 from botschool.problems import Episodes
-from duels import FACE, run, write
+from duels import run, write
 
 
 @pytest.fixture
@@ -91,49 +89,6 @@ def test_generations_meet(es, command, tmp_path):
 def test_what_cannot_be_is_refused_in_a_sentence(environment, options, says, refused, tmp_path):
     path = write(tmp_path, environment, options=options)
     refused("es", "-f", path, "-s", 3, "-o", tmp_path / "run", says=says)
-
-
-def test_other_settings_that_do_not_fit(refused, tmp_path):
-    for policy, says in (({"nrobots": 1}, "nrobots = 2"), ({"normalize": 1}, "normalize = 0")):
-        path = write(tmp_path, policy=policy)
-        refused("es", "-f", path, "-o", tmp_path / "run", says=says)
-    path = write(tmp_path)
-    path.write_text(path.read_text().replace("options =", "wrappers = ClipReward\noptions ="))
-    refused("es", "-f", path, "-o", tmp_path / "run", says=["wrappers do not fit", "module:func"])
-
-
-@pytest.mark.parametrize("name", ["duels:Duel", FACE, "classic/rps-v2"])
-def test_one_population_does_not_evolve_in_a_game_of_two(name, refused, tmp_path):
-    path = write(tmp_path, name, "SSS", policy={"nrobots": 1, "heterogeneous": 0})
-    path.write_text(re.sub(r"(?s)\[ALGO\].*", "[ALGO]\npopsize = 2\n", path.read_text()))
-    says = [f"{name} is an environment of PettingZoo", "algo = coevo2"]
-    refused("es", "-f", path, "-o", tmp_path / "run", says=says)
-
-
-def test_without_pictures(refused, tmp_path):
-    film = ("--video", tmp_path / "duel.mp4")
-    refused("es", "-f", write(tmp_path, "duels:Blind"), "-p", *film, says="draws no pictures")
-    own = write(tmp_path, options="fault='words drawn'")
-    refused("es", "-f", own, "-p", *film, says="draws no pictures")
-
-
-def test_without_seeds_it_says_so(command, tmp_path):
-    own = write(tmp_path, options="fault='unseeded'")
-    code, _, errors = command("es", "-f", own, "-o", tmp_path / "run", "--generations", 1)
-    assert code == 0 and "duels:Duel does not repeat" in errors
-
-
-def test_without_the_package_it_says_what_to_install(monkeypatch):
-    def missing(module):
-        raise ModuleNotFoundError("No module named 'mpe2'", name="mpe2")
-
-    monkeypatch.setattr(importlib, "import_module", missing)
-    for name in ("mpe2.simple_push_v3", "mpe2.simple_push_v3:parallel_env"):
-        with pytest.raises(BotschoolError, match=r"comes with the package mpe2: install it with"):
-            problems.make(name, competitive=True)
-    monkeypatch.setitem(sys.modules, "pettingzoo", None)
-    with pytest.raises(BotschoolError, match=r"not installed: install.*botschool\[pettingzoo\]"):
-        problems.make("duels:Duel", competitive=True)
 
 
 def test_games_of_others(tmp_path):

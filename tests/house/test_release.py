@@ -15,10 +15,8 @@ import typer
 
 from botschool.cli.app import commands
 from botschool.errors import BotschoolError
-from botschool.grading.copies import release as releasing
 from botschool.grading.copies.release import MANIFEST, release
 from botschool.grading.copies.skeleton import find_leaks
-from botschool.grading.declare import trust as trusting
 from botschool.grading.declare.exercise import exercise_numbers, load_exercise, missing_packages
 from botschool.grading.declare.trust import trust
 from botschool.grading.packed import is_packed, unpack_answers
@@ -159,9 +157,6 @@ def test_no_text_names_what_the_copy_does_not_have(copy):
     ]  # fmt: skip
 
 
-FIGURE = re.compile(r"^!\[([^\]]+)\]\(([^)]+)\)\n\n\*([^*]+)\*$", re.MULTILINE)
-
-
 def test_no_text_of_an_installed_copy_names_what_it_does_not_have(installed):
     found = {
         name: [what for what in absent(installed, name, text) if not what.startswith("lib/")]
@@ -181,23 +176,6 @@ def test_no_text_of_an_installed_copy_names_what_it_does_not_have(installed):
 
 
 @pytest.mark.slow
-def test_a_copy_of_what_a_wheel_brings_is_the_same(installed, tmp_path, monkeypatch):
-    monkeypatch.setattr(releasing, "material", lambda: installed.resolve())
-    monkeypatch.setattr(trusting, "material", lambda: installed.resolve())
-    done = release(installed, tmp_path / "copy")
-    files = {path.relative_to(installed) for path in installed.rglob("*") if path.is_file()}
-    assert done.files == len(files) - 1  # without the list of files
-    for name in files:
-        assert (tmp_path / "copy" / name).read_bytes() == (installed / name).read_bytes(), name
-    release(installed, tmp_path / "third", {3})
-    assert [path.name for path in (tmp_path / "third/exercises").glob("ex*")] == [
-        "ex03_evolution_strategy"
-    ]
-    with pytest.raises(BotschoolError, match="student's copy already"):
-        release(tmp_path / "copy", tmp_path / "another")
-
-
-@pytest.mark.slow
 def test_what_a_wheel_gets_has_no_plain_solutions_graders_and_measures(tmp_path):
     """As tools/material.py puts it into a wheel."""
     subprocess.run([sys.executable, ROOT / "tools" / "material.py", tmp_path], check=True)
@@ -207,36 +185,6 @@ def test_what_a_wheel_gets_has_no_plain_solutions_graders_and_measures(tmp_path)
     assert len(graders) == len(NUMBERS)
     assert len(measures) == len([*ROOT.glob("lib/botschool/labs/lab[0-9]*.py")]) > 0
     assert all(is_packed(path.read_text()) for path in (*graders, *measures))
-
-
-def test_laboratories_have_their_sheets_and_scripts_in_the_copy(copy):
-    pages = sorted(ROOT.glob("lib/botschool/labs/lab*.md"))
-    assert len(pages) == len([*copy.glob("lib/botschool/labs/lab[0-9]*.py")])
-    for page in pages:
-        assert (copy / page.relative_to(ROOT)).read_bytes() == page.read_bytes()
-
-
-def test_every_figure_of_the_texts_is_in_the_copy(copy):
-    """At least two in each, with a caption, the expected result on top; and no other pictures."""
-    named = set()
-    for number in NUMBERS:
-        (readme,) = copy.glob(f"exercises/ex{number:02d}_*/README.md")
-        text = readme.read_text(encoding="utf-8")
-        found = FIGURE.findall(text)
-        assert len(found) == text.count("![") >= 2, readme
-        assert found[0][2].startswith("What you will have made"), readme
-        assert text.index("![") < text.index("**Aim:**"), readme
-        named |= {(readme.parent / place).resolve() for _, place, _ in found}
-    pictures = {path.resolve() for path in (copy / "docs/images/course").iterdir()}
-    assert named == pictures
-    assert max(path.stat().st_size for path in pictures) <= 60_000
-
-
-@pytest.mark.slow
-def test_figures_come_with_their_exercises(tmp_path):
-    release(ROOT, tmp_path / "copy", {3, 7})
-    names = {path.name[:4] for path in (tmp_path / "copy/docs/images/course").iterdir()}
-    assert names == {"ex03", "ex07"}
 
 
 @pytest.mark.slow
@@ -257,23 +205,6 @@ def test_answers_are_packed(tmp_path):
         assert not list(copy.glob("exercises/*/ANSWERS.packed"))
     release(ROOT, copy, {4}, with_answers=True)
     assert len(list(copy.glob("exercises/*/ANSWERS.packed"))) == 4
-
-
-def test_no_marks_of_what_was_left_out_remain(copy):
-    assert not [name for name, text in texts(copy) if "NOT RELEASED" in text]
-    assert "bench" not in (copy / "Makefile").read_text()
-    make = subprocess.run(["make", "help"], cwd=copy, capture_output=True, text=True, check=True)
-    assert "make test-exN" in make.stdout and "solution" not in make.stdout
-
-
-@pytest.mark.slow
-def test_start_page(copy):
-    """The copy's README is the students' start page, with links that lead somewhere."""
-    text = (copy / "README.md").read_text(encoding="utf-8")
-    for number in NUMBERS:
-        assert (
-            f"| {number} | [{load_exercise(number, ROOT).title}](exercises/ex{number:02d}_" in text
-        )
 
 
 # --- a copy that is brought up to date

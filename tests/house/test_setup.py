@@ -2,11 +2,9 @@
 
 import math
 import os
-import re
 import shlex
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -14,7 +12,6 @@ import pytest
 import botschool
 from botschool.cli.app import commands as command_line
 from botschool.terminal import readable
-from running import finished_run
 
 ROOT = Path(__file__).parents[2]
 PYTHON = """#!/bin/sh
@@ -74,15 +71,6 @@ def test_extras_of_an_exercise(setup, exercise, extras):
 
 
 @pytest.mark.skipif(not shutil.which("sh"), reason="needs a shell")
-def test_an_exercise_asks_for_its_own_packages_only(setup):
-    code, _, _, calls, stamps = setup("extra", "rl")
-    assert code == 0 and stamps == [".extra-rl"]
-    (call,) = calls
-    assert "botschool[rl]" in call and "-c constraints.txt" in call
-    assert "pybullet]" not in call and "box2d]" not in call and "index-url" not in call
-
-
-@pytest.mark.skipif(not shutil.which("sh"), reason="needs a shell")
 def test_torch_without_cuda_is_a_switch(setup):
     cpu = "--extra-index-url https://download.pytorch.org/whl/cpu"
     for arguments in (["extra", "rl"], ["tests"]):
@@ -107,64 +95,10 @@ def test_what_has_no_wheel_is_left_out_with_one_notice(setup):
 
 
 @pytest.mark.skipif(not shutil.which("sh"), reason="needs a shell")
-def test_with_all_wheels_there_is_no_notice(setup):
-    code, out, _, calls, stamps = setup("tests")
-    assert code == 0 and "Notice" not in out and any("compare" in call for call in calls)
-    assert stamps == [".extra-atari", ".extra-box2d", ".extra-pybullet", ".extra-rl", ".tests"]
-
-
-@pytest.mark.skipif(not shutil.which("sh"), reason="needs a shell")
 def test_an_exercise_without_wheels_says_how_to_get_them(setup):
     code, _, errors, _, stamps = setup("extra", "box2d", WITHOUT="box2d")
     assert code == 2 and not stamps
     assert errors.startswith("error: No wheels for Python 3.13") and "exercise 5" in errors
-
-
-@pytest.mark.skipif(not shutil.which("sh"), reason="needs a shell")
-def test_exercise_10_does_without_pybullet_where_it_has_no_wheel(setup):
-    code, out, errors, _, stamps = setup("extra", "pybullet", WITHOUT="pybullet")
-    assert (code, errors, stamps) == (0, "", [".extra-pybullet"])
-    assert "Exercise 10 simulates without it" in out
-
-
-@pytest.mark.skipif(not shutil.which("sh"), reason="needs a shell")
-def test_a_real_conflict_is_no_missing_wheel(setup):
-    code, _, errors, _, stamps = setup("tests", WITHOUT="rl", CONFLICT="1")
-    assert code == 2 and ".tests" not in stamps and "conflicting dependencies" in errors
-
-
-@pytest.mark.skipif(not shutil.which("sh"), reason="needs a shell")
-def test_without_network_nothing_is_left_out(setup):
-    code, _, errors, _, stamps = setup("tests", WITHOUT="pybullet", OFFLINE="1")
-    assert code == 2 and ".tests" not in stamps and "is it there?" in errors
-
-
-@pytest.mark.skipif(not shutil.which("sh"), reason="needs a shell")
-def test_only_what_is_half_installed_is_forgotten(tmp_path):
-    """A file is missing, one is cut short, a list is missing; the others stay."""
-
-    def package(name, text="x = 1\n"):
-        info = tmp_path / f"{name}-1.0.dist-info"
-        info.mkdir()
-        (info / "METADATA").write_text(f"Name: {name}\nVersion: 1.0\n")
-        (info / "RECORD").write_text(f"{name}.py,,6\n{name}-1.0.dist-info/RECORD,,\n")
-        if text:
-            (tmp_path / f"{name}.py").write_text(text)
-        return info
-
-    package("whole")
-    package("cut", "x =")
-    package("gone", None)
-    (package("unlisted") / "RECORD").unlink()
-    (package("in_place", None) / "direct_url.json").write_text("{}")
-    script = ROOT / "tools" / "half_installed.py"
-    run = f"import sys, runpy; sys.path.append({str(tmp_path)!r}); runpy.run_path({str(script)!r})"
-    done = subprocess.run(  # -S: without this environment's own packages
-        [sys.executable, "-I", "-S", "-c", run], capture_output=True, text=True, check=True
-    )
-    assert sorted(done.stdout.split()) == ["cut==1.0", "gone==1.0", "unlisted==1.0"]
-    left = {path.name.split("-")[0] for path in tmp_path.glob("*.dist-info")}
-    assert left == {"whole", "in_place"}
 
 
 @pytest.mark.skipif(not shutil.which("sh"), reason="needs a shell")
@@ -216,14 +150,6 @@ def test_the_demo_makes_what_it_names(tmp_path, monkeypatch):
         assert path.stat().st_size > 5_000, path
 
 
-def test_the_readme_says_what_the_demo_evolves():
-    """The steps that its caption gives are those of the Makefile."""
-    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
-    steps = [int(number) for number in re.findall(r"--steps (\d+) --force", makefile)]
-    text = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
-    assert steps == [3_000_000, 10_000_000] and "in ten million steps" in text
-
-
 # --- What the command says of itself and of fitness.
 
 
@@ -246,18 +172,6 @@ def test_the_readme_says_what_the_demo_evolves():
 )
 def test_fitness_has_the_digits_that_its_size_asks_for(value, text):
     assert readable(value) == text
-
-
-def test_small_differences_of_a_small_fitness_are_seen(tmp_path, command):
-    """Those of a problem whose returns are near 0.001, in the lines of a run and its result."""
-    ini, results = finished_run(tmp_path, "tiny_envs:Small-v0", maxmsteps=0.001)
-    code, out, _ = command("es", "-f", ini, "-o", results, "-s", 2)
-    assert code == 0
-    lines = out.splitlines()
-    told = {word for line in lines for word in line.split() if word.startswith("0.00")}
-    assert len(told) > 3 and all(len(word.rstrip(",")) >= 8 for word in told)
-    best = float((results / "S2.fit").read_text().split()[-1])
-    assert f"best post-evaluated {readable(best)} after" in lines[-1]
 
 
 def test_the_version(command):

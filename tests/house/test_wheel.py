@@ -6,7 +6,6 @@ import shutil
 import subprocess
 import sys
 import sysconfig
-import zipfile
 from pathlib import Path
 
 import pytest
@@ -68,19 +67,6 @@ def test_a_stranger_evolves_and_grades_with_a_wheel_alone(installed):
         shutil.copy(solution, place)
         code, said = installed("grade", number, cwd=course)
         assert code == 0 and "100 of 100 points" in said, said
-
-
-@pytest.mark.long
-@pytest.mark.skipif(
-    not (ROOT / "lib/botschool/page/classic.wasm").exists(), reason="`make web` was not run"
-)
-def test_a_page_is_made_from_a_wheel(installed, wheel):
-    with zipfile.ZipFile(wheel) as archive:
-        cores = [name for name in archive.namelist() if name.endswith(".wasm")]
-    assert len(cores) == len([*(ROOT / "lib/botschool/page").glob("*.wasm")])
-    code, said = installed("page", "acrobot.ini")
-    assert code == 0, said
-    assert [*installed.folder.rglob("*.html")]
 
 
 # --- what a public repository runs elsewhere, as far as it can be looked at here

@@ -86,38 +86,3 @@ def test_each_page_opens_without_an_error(book, browser):
         missing += [(path.name, "a formula")] * wrong
         missing += [(path.name, url) for url in browser.requests if url.startswith("http")]
     assert missing == []
-
-
-@pytest.mark.long
-def test_the_book_by_keyboard(book, browser):
-    """Search; a living figure below a picture of something that moves, which opens and plays."""
-    browser.resize(1280, 900)
-    visit(browser, book / "search.html")
-    browser.run("location.search = '?q=ziggurat'")
-    browser.wait("document.querySelectorAll('#search-results li a').length > 0")
-
-    visit(browser, book / "exercises/ex04_acrobot/README.html")
-    assert browser.run("document.querySelectorAll('details.living').length") == 1
-    browser.run("document.querySelector('details.living summary').focus()")
-    browser.press("Enter", "\r")
-    browser.wait("document.querySelector('details.living').open")
-    browser.run("document.querySelector('details.living').scrollIntoView()")
-    assert browser.run("document.activeElement.tagName") == "SUMMARY"
-    visit(browser, book / "docs/book/live/acrobot.html")
-    browser.wait("bench && game.step > 2")
-    browser.press(" ", " ")
-    browser.wait("!game.playing")
-    step = browser.run("game.step")
-    browser.press("ArrowRight")
-    assert browser.run("game.step") == step + 1
-    reached = []  # everything that can be pressed is reached by the tabulator
-    for _ in range(80):
-        browser.press("Tab")
-        reached.append(browser.run("document.activeElement.id || document.activeElement.className"))
-    assert {"pause", "once", "again", "speed", "seed", "evolve", "neuron", "heal", "load"} <= set(
-        reached
-    )
-    assert browser.run(
-        "[...document.querySelectorAll('canvas, iframe, button, input, select')].every((one) =>"
-        " one.getAttribute('aria-label') || one.title || one.labels?.length || one.innerText)"
-    )

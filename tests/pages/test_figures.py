@@ -8,7 +8,6 @@ import re
 import pytest
 
 from botschool.errors import BotschoolError
-from botschool.grading.commands import start_command
 from botschool.grading.copies.release import release
 from botschool.grading.copies.starting import living_page
 from botschool.page import exercise
@@ -107,27 +106,6 @@ def test_a_copy_has_its_pages_ready(tmp_path, monkeypatch):
 
 def no_core(part):
     raise BotschoolError("The core for pages is not built here: type `make web` in the checkout.")
-
-
-def test_start_says_what_a_page_needs(capsys, monkeypatch):
-    monkeypatch.setenv("BOTSCHOOL_COURSE", str(ROOT))
-    monkeypatch.setattr(exercise, "core_file", no_core)
-    start_command("1", False, False)
-    assert "make web" in " ".join(capsys.readouterr().out.split())
-    page = FOLDERS[1] / PAGE
-    monkeypatch.setattr(exercise, "core_file", lambda part: b"core")
-    start_command("1", False, False)
-    assert "ex01_gymnasium/page.html" in capsys.readouterr().out and page.is_file()
-    page.unlink()
-
-
-def test_start_in_a_copy_without_pages_sends_nobody_to_make(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(exercise, "core_file", no_core)
-    release(ROOT, tmp_path / "copy", {1})
-    monkeypatch.setenv("BOTSCHOOL_COURSE", str(tmp_path / "copy"))
-    start_command("1", False, False)
-    said = " ".join(capsys.readouterr().out.split())
-    assert "This copy has none" in said and "make web" not in said
 
 
 def test_an_exercise_without_figures_has_no_page(tmp_path):

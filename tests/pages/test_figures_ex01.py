@@ -3,7 +3,7 @@
 import numpy as np
 
 from botschool import _core
-from living import drag, focus, grip_of
+from living import focus
 
 
 def steps(ways, change=None):
@@ -43,12 +43,3 @@ def test_keys_steer_the_pole(page):
     path = steps(ways + 500 * [1], (10, 3, 0.5))
     assert page.run("[figures.pole.pole.total, figures.pole.pole.fell]") == [len(path) - 1, True]
     assert "the pole has fallen" in page.run("figures.pole.canvas.getAttribute('aria-label')")
-
-
-def test_the_cart_is_dragged(page):
-    x, y = grip_of(page, "pole", "grip1")
-    drag(page, "pole", (x, y), (x + 60, y))
-    scale = page.run("figures.pole.pole.frame[0]")
-    moved = page.run("[...figures.pole.pole.state]")
-    before = steps([])[0]
-    np.testing.assert_allclose(moved, before + np.array([60 / scale, 0, 0, 0]), atol=1e-6)

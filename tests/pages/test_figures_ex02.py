@@ -1,12 +1,11 @@
 """The figure of exercise 2: dragged weights give the fitness that the command gives them."""
 
 import numpy as np
-import pytest
 
 from botschool import config
 from botschool.problems.base import Episodes
 from botschool.problems.native import NativeProblem
-from living import ROOT, drag, focus, grip_of, state, touch
+from living import ROOT, drag, focus, grip_of, state
 
 
 def returns_by_python(genotypes):
@@ -53,13 +52,3 @@ def test_one_neuron_balances_and_the_luckiest_is_the_best_of_200(page):
     best = int(returns.mean(axis=1).argmax())
     assert found["weights"] == drawn[best]
     assert found["returns"] == returns[best].tolist()
-
-
-@pytest.mark.parametrize("page", [390], indirect=True)
-def test_a_finger_drags_a_weight_and_nothing_beside_it(page):
-    x, y = grip_of(page, "weights", "hidden1-x")
-    touch(page, "weights", (x, y), (x, y - 50))
-    assert abs(state(page, "weights")["weights"][5] - 1.5) < 0.02
-    weights = state(page, "weights")["weights"]
-    touch(page, "weights", (x + 60, y - 60), (x + 60, y - 80))
-    assert state(page, "weights")["weights"] == weights

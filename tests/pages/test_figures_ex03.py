@@ -5,7 +5,7 @@ import pytest
 
 from botschool import config
 from botschool.evolution.run import Run
-from living import ROOT, click, drag, grip_of, slide, state
+from living import ROOT, slide, state
 
 SWING = """[EXP]
 environment = Pendulum-v1
@@ -69,23 +69,6 @@ def test_the_population_climbs_as_the_solution_says(page):
         np.testing.assert_allclose(s["curve"], curve, rtol=1e-12)
     measured, worth = max(curve)
     assert [s["record"]["measured"], s["record"]["worth"]] == pytest.approx([measured, worth])
-
-
-def test_hills_are_dragged_and_luck_is_raised(page):
-    x, y = grip_of(page, "hills", "high")
-    scale = page.run("panels(figures.hills).map.box[2]") / 6
-    drag(page, "hills", (x, y), (x - 40, y + 20))
-    s = state(page, "hills")
-    np.testing.assert_allclose(s["high"], [1.2 - 40 / scale, 1.1 - 20 / scale], atol=1e-6)
-    slide(page, "hills", "luck", 0.5)
-    click(page, "hills", x, y + 120)
-    s = state(page, "hills")
-    np.testing.assert_allclose(s["at"], [1.2, 1.1 - 120 / scale], atol=1e-6)
-    page.run("figures.hills.advance(4)")
-    s = state(page, "hills")
-    population, curve = followed(s, 4)
-    assert s["luck"] == 0.5 and s["population"] == population.tolist()
-    np.testing.assert_allclose(s["curve"], curve, rtol=1e-12)
 
 
 def test_the_pendulum_evolves_as_with_the_command(page, tmp_path):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from botschool import config
-from living import ROOT, Stepped, click, drag, focus, grip_of
+from living import ROOT, Stepped, click, focus
 
 EXPERIMENT = config.load(ROOT / "data/experiments/discrim.ini")
 SAVED = np.load(ROOT / "data/genotypes/discrim.npy")
@@ -30,20 +30,6 @@ def test_a_click_blinds_a_sensor_and_a_key_another(page):
     page.run("figures.apart.advance(80)")
     assert_same(page, khepera().run(50).run(80, blind=[1]).run(80, blind=[1, 6]))
     assert "blind 2, 7" in page.run("figures.apart.canvas.getAttribute('aria-label')")
-
-
-def test_the_cylinder_is_dragged(page):
-    x, y = grip_of(page, "apart", "grip1")
-    drag(page, "apart", (x, y), (x - 40, y + 30))
-    place = page.run("[...figures.apart.robot.state]")[3:5]
-    other = khepera()
-    state = other.stepper.state
-    scale = page.run("figures.apart.robot.frame[0]")
-    np.testing.assert_allclose(place, state[3:5] + np.array([-40, -30]) / scale, atol=1e-3)
-    state[3:5] = place
-    other.stepper.state = state
-    page.run("figures.apart.advance(200)")
-    assert_same(page, other.run(200))
 
 
 def test_measuring_is_the_command_s_and_memory_matters(page):

@@ -7,7 +7,7 @@ from botschool import _core, config
 from botschool.config import from_dict, to_dict
 from botschool.evolution.run import Run, evolve
 from botschool.problems.native import NativeProblem
-from living import ROOT, click, drag, grip_of, slide
+from living import ROOT, click, slide
 
 EXPERIMENT = config.load(ROOT / "data/experiments/pendulum.ini")
 
@@ -60,14 +60,6 @@ def test_a_click_starts_a_path_and_gravity_changes_it(page):
     page.run("figures.plane.advance(60)")
     expected = path_by_python(start, 60, gravity=15.0)
     np.testing.assert_allclose(page.run(PATH), expected, rtol=0, atol=1e-6)
-
-
-def test_the_start_is_dragged(page):
-    x, y = grip_of(page, "plane", "start")
-    drag(page, "plane", (x, y), (x - 100, y - 50))
-    path = page.run(PATH)
-    np.testing.assert_allclose(grip_of(page, "plane", "start"), [x - 100, y - 50], atol=0.01)
-    np.testing.assert_array_equal(path, path_by_python(path[0], 200, motor=False))
 
 
 def test_evolution_in_the_figure_is_the_command_s(page, tmp_path):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from botschool.evolution.algorithms.openaies import OpenAIES, OpenAIESConfig
-from living import ROOT, drag, grip_of, slide, state
+from living import slide, state
 
 TOP = np.array([1.5, 1.2])
 
@@ -48,32 +48,3 @@ def test_the_centre_climbs_as_with_the_command(page, ground):
     page.run("figures.cloud.press('once'), figures.cloud.press('once')")
     s = state(page, "cloud")
     assert s["trail"] == run(2, True, samplesize=1, noiseStdDev=1.5, stepsize=0.8)
-
-
-def test_the_centre_is_dragged(page):
-    x, y = grip_of(page, "cloud", "centre")
-    scale = page.run("parts(figures.cloud).map.box[2]") / 6
-    page.run("figures.cloud.advance(3), figures.cloud.reset()")
-    drag(page, "cloud", (x, y), (x + 90, y - 30))
-    s = state(page, "cloud")
-    np.testing.assert_allclose(s["x"], [-1.7 + 90 / scale, -1.2 + 30 / scale], atol=1e-6)
-    page.run("figures.cloud.advance(5)")
-    assert state(page, "cloud")["trail"] == followed(hill, s["x"], 5)
-
-
-def test_bars_become_steps_of_adam(page):
-    names = {"__name__": "solution"}
-    exec((ROOT / "solutions/ex08_openai_es/openai_es.py").read_text(), names)
-    page.run("figures.stride.press('kind-sudden')")
-    slide(page, "stride", "before", 3000)
-    x, y = grip_of(page, "stride", "d20")
-    up = page.run("rows(figures.stride).bars.box[3]") / 2
-    drag(page, "stride", (x, y), (x, y + up))
-    s = state(page, "stride")
-    np.testing.assert_allclose(s["d"], 15 * [0] + 4 * [0.8] + [-0.2] + 20 * [0.8], atol=1e-6)
-    centre = m = v = np.zeros(1)
-    for i, d in enumerate(s["d"]):
-        after, m, v = names["adam"](centre, np.array([d]), m, v, 3001 + i, 1.0)
-        assert s["steps"][i] == pytest.approx((after - centre)[0], rel=1e-4)
-        centre = after
-    assert max(map(abs, s["steps"])) > 3.2

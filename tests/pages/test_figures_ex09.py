@@ -6,7 +6,7 @@ import pytest
 from botschool import _core
 from botschool.page.figures import ex09
 from botschool.problems import of
-from living import click, slide, state
+from living import slide
 
 SPEED = 6
 """Index of a hopper's speed ahead in its state."""
@@ -52,24 +52,3 @@ def test_hoppers_earn_what_the_problem_pays(page):
         told = page.run("figures.bonus.line.textContent")
         assert f"bonus {ex09.BONUSES[row]:g}, seed {column + 1}:" in told
         assert f"{states[-1][0] - states[0][0]:.1f} m" in told
-
-
-def test_a_hopper_is_chosen_on_the_track_and_pushed(page):
-    page.run("figures.bonus.advance(50)")
-    place = "(({ track }) => [track.x(metres(figures.bonus.hoppers[1][2])), track.y(-1.5)])"
-    click(page, "bonus", *page.run(f"{place}(plots(figures.bonus))"))
-    s = state(page, "bonus")
-    assert (s["bonus"], s["seed"]) == (1, "3")
-    page.run("figures.bonus.press('right')")
-    page.run("chosen(figures.bonus).step()")
-    states, rewards = played(1, 2, 101, push=1.0)
-    assert page.run("[...chosen(figures.bonus).state]") == states[-1].tolist()
-    assert page.run("chosen(figures.bonus).total") == pytest.approx(sum(rewards), rel=1e-12)
-    page.run("figures.bonus.reset()")
-    assert page.run("[...chosen(figures.bonus).state]") == played(0, 0, 0)[0][0].tolist()
-
-
-def test_the_experiment_pays_the_bonus():
-    for bonus in ex09.BONUSES:
-        assert of(ex09.experiment(bonus)).alive == bonus
-    assert np.load(ex09.FILE).shape[:2] == (len(ex09.BONUSES), len(ex09.SEEDS))

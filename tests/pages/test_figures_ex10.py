@@ -3,7 +3,7 @@
 import numpy as np
 
 from botschool import config
-from living import ROOT, Stepped, focus
+from living import ROOT, Stepped
 
 
 def balancer():
@@ -19,23 +19,6 @@ SHOWN = (
 def assert_same(page, other):
     state, total, steps = page.run(SHOWN)
     assert (state, total, steps) == (other.stepper.state.tolist(), other.total, other.steps)
-
-
-def test_a_hand_on_the_wheels(page):
-    focus(page, "balance")
-    key = {"key": "ArrowRight", "modifiers": 0}
-    page.call("Input.dispatchKeyEvent", type="keyDown", **key)
-    page.run("figures.balance.advance(4)")
-    page.call("Input.dispatchKeyEvent", type="keyUp", **key)
-    page.run("figures.balance.advance(3)")
-    other = balancer()
-    other.run(4, 1.0)
-    other.run(3, 0.0)
-    assert_same(page, other)
-    page.run("figures.balance.advance(500)")
-    other.run(500, 0.0)
-    assert_same(page, other)
-    assert "It has fallen" in page.run("figures.balance.canvas.getAttribute('aria-label')")
 
 
 def test_the_evolved_robot_is_blinded_and_hit(page):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from living import ROOT, click, drag, grip_of, slide, state
+from living import ROOT, slide, state
 
 CORNERS = np.array([[0, 0], [0, 1], [1, 0], [1, 1.0]])
 NAMES = ("w1", "b1", "w2", "b2")
@@ -54,28 +54,3 @@ def test_it_learns_as_the_solution(page, gradient_by_hand):
     slide(page, "surface", "momentum", 0.5)
     page.run("figures.surface.press('chance')")
     assert_learns(page, gradient_by_hand, 300)
-
-
-def test_a_dragged_line_frees_a_network(page, gradient_by_hand):
-    page.run("figures.surface.advance(600)")
-    assert page.run("loss(figures.surface.state)") == pytest.approx(0.125, abs=0.01)
-    steep = np.linalg.norm(state(page, "surface")["w1"][0])
-    x, y = page.run(
-        "(({ map }) => [map.x(0.75), map.y(0.75)])(panels(figures.surface))"
-    )  # the line then goes through (0.5, 1) and (1, 0.5)
-    drag(page, "surface", grip_of(page, "surface", "line1"), (x, y))
-    s = state(page, "surface")
-    nets = np.array([[0.5, 1], [1, 0.5]]) @ s["w1"][0] + s["b1"][0]
-    np.testing.assert_allclose(nets, 0, atol=1e-5)
-    assert np.linalg.norm(s["w1"][0]) == pytest.approx(steep)
-    assert_learns(page, gradient_by_hand, 100)
-    assert page.run("learnt(figures.surface.state)")
-
-
-def test_a_corner_changes_its_answer(page, gradient_by_hand):
-    x, y = page.run("(({ map }) => [map.x(1), map.y(1)])(panels(figures.surface))")
-    click(page, "surface", x, y)
-    assert state(page, "surface")["targets"] == [0, 1, 1, 1]
-    assert_learns(page, gradient_by_hand, 300)
-    told = page.run("figures.surface.canvas.getAttribute('aria-label')")
-    assert "Corner 1, 1: answer" in told and "target 1. Loss" in told

@@ -49,20 +49,6 @@ def test_episodes_are_the_core_s(page, solution):
     assert np.mean(likely) == pytest.approx(0.5, abs=0.1)
 
 
-def test_the_slider_chooses_the_elite(page, solution):
-    page.run("figures.elite.press('once'), figures.elite.press('once')")
-    episodes = episodes_of(page)
-    for percentile in (0, 35, 70, 95):
-        slide(page, "elite", "percentile", percentile)
-        chosen = solution["elite"](episodes, percentile)
-        assert page.run("boundOf(figures.elite)") == pytest.approx(chosen["bound"], abs=1e-9)
-        actions = page.run("elite(figures.elite).flatMap(({ actions }) => actions)")
-        assert actions == chosen["actions"].tolist()
-        told = page.run("figures.elite.line.textContent")
-        teachers = sum(episode["return"] >= chosen["bound"] for episode in episodes)
-        assert f"{teachers} episodes teach" in told
-
-
 @pytest.mark.parametrize("percentile", [70, 90])
 def test_the_elite_teaches(page, solution, percentile):
     torch = solution["torch"]
@@ -83,17 +69,3 @@ def test_the_elite_teaches(page, solution, percentile):
     assert s["updates"] == 10 and len(s["rows"]) == 1
     for found, wanted in zip(arrays(s["policy"]), solution["parameters_of"](network), strict=True):
         np.testing.assert_allclose(found, wanted, atol=1e-4)
-
-
-def test_a_training_reaches_the_goal(page):
-    slide(page, "elite", "percentile", 90)
-    while not page.run("over(figures.elite)"):
-        page.run("figures.elite.press('once')")
-    assert len(state(page, "elite")["rows"]) < 30
-    assert page.run("mean(figures.elite.episodes.map(({ total }) => total))") >= 195
-    assert "the training ends" in page.run("figures.elite.line.textContent")
-    page.run("figures.elite.play(), figures.elite.advance(1)")  # it begins anew
-    assert page.run("figures.elite.playing")
-    page.run("figures.elite.stop()")
-    s = state(page, "elite")
-    assert s["rows"] == [] and len(s["past"]) == 1

@@ -58,19 +58,3 @@ def test_both_sides_are_the_command_s(page, curve_of, problem, rounds, tmp_path)
     # of Acrobot's episodes that end early, the last step costs nothing
     close = {"rtol": 0, "atol": 20 * len(found) if problem == "acrobot" else 1e-6}
     np.testing.assert_allclose(found[:, 0], curve["steps"][: len(found)], **close)
-
-
-def test_a_race_goes_to_its_end(page):
-    while not state(page, "race")["over"]:
-        raced(page, 5)
-    s = state(page, "race")
-    assert s["spent"]["es"] >= 300_000
-    assert s["ppo"][-1][1] == 500
-    told = page.run("figures.race.canvas.getAttribute('aria-label')")
-    assert "PPO has a best post-evaluation of 500" in told
-    page.run("figures.race.play(), figures.race.advance(1)")  # the next seed's race
-    assert page.run("figures.race.playing")
-    page.run("figures.race.stop()")
-    after = state(page, "race")
-    assert after["seed"] == 2 and not after["over"]
-    assert after["past"][0]["ppo"][-1][1] == 500

@@ -3,7 +3,7 @@
 import numpy as np
 
 from botschool.page.figures.ex15 import data
-from living import click, drag, grip_of, slide
+from living import click
 
 RETURN = "figures.tournament.robot.total"
 
@@ -25,17 +25,3 @@ def test_a_click_on_the_matrix_lets_two_robots_meet(page):
         chosen = page.run("[figures.tournament.state.predator, figures.tournament.state.prey]")
         assert chosen == [row, column]
         assert chase(page) == matrix[row, column]
-
-
-def test_sliders_choose_and_a_hand_changes_the_chase(page):
-    slide(page, "tournament", "predator", 3)
-    slide(page, "tournament", "prey", 0)
-    told = page.run("figures.tournament.canvas.getAttribute('aria-label')")
-    assert "The predator of generation 180 meets the prey of generation 0" in told
-    x, y = grip_of(page, "tournament", "grip1")
-    prey = grip_of(page, "tournament", "grip2")
-    before = page.run("[...figures.tournament.robot.state]")
-    drag(page, "tournament", (x, y), (x, y + 0.6 * (prey[1] - y) + 40))
-    after = page.run("[...figures.tournament.robot.state]")
-    assert after[:2] != before[:2] and after[2:] == before[2:]
-    chase(page)

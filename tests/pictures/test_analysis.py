@@ -12,7 +12,7 @@ from matplotlib.image import imread
 
 from botschool.analysis import plots
 from botschool.analysis.run_page import curve
-from botschool.analysis.runs import BEST_POST, find_runs, read_fit, read_fitness, read_stat
+from botschool.analysis.runs import BEST_POST, find_runs, read_fitness, read_stat
 from botschool.errors import BotschoolError
 from browser import Browser, find_browser
 from running import finished_run, write_experiment
@@ -114,22 +114,6 @@ def test_a_missing_stat_file_is_named():
         read_stat("nowhere/statS3.npy")
 
 
-def test_a_fit_file_is_pairs(tmp_path):
-    path = tmp_path / "S1.fit"
-    path.write_text("seed 1 (42.0%) algo SSS bestgfit -66.25\n")
-    assert read_fit(path) == {"seed": 1.0, "algo": "SSS", "bestgfit": -66.25}
-
-
-@pytest.mark.parametrize(
-    "content", [b"", b"bestfit 3\n", b"bestgfit\n", b"bestgfit x", b"\xff\x00"]
-)
-def test_what_is_no_fit_file_is_refused(tmp_path, content):
-    path = tmp_path / "S1.fit"
-    path.write_bytes(content)
-    with pytest.raises(BotschoolError, match=r"S1\.fit is not a \.fit file"):
-        read_fit(path)
-
-
 def test_runs_of_a_folder_are_found_by_the_seeds_in_file_names(tmp_path):
     save_run(tmp_path, 11, stat_of(3))
     save_run(tmp_path, 2, stat_of(3))
@@ -142,12 +126,6 @@ def test_runs_of_a_folder_are_found_by_the_seeds_in_file_names(tmp_path):
     assert runs[2].bestg == tmp_path / "bestgS11.npy"
     assert runs[2].fit["bestgfit"] == 100.0
     assert (runs[1].best, runs[1].fit) == (None, {})
-
-
-def test_the_fitness_of_an_unfinished_run_comes_from_its_stat_file(tmp_path):
-    save_run(tmp_path, 1, stat_of(3, last=50.0))
-    (tmp_path / "S1.fit").unlink()
-    assert read_fitness(tmp_path) == {1: 50.0}
 
 
 def test_damaged_files_of_a_folder_are_skipped_and_named(tmp_path):
@@ -201,51 +179,6 @@ def test_a_folder_gives_mean_and_band_over_its_runs(tmp_path, drawn):
     assert len(drawn[0].axes[0].lines) == 9  # 3 runs, 2 means with 2 edges each
 
 
-def test_replications_count_only_as_far_as_they_ran():
-    stats = [stat_of(21, 100.0), stat_of(21, 100.0), stat_of(11, 1000.0)]
-    steps, mean, sd = plots.replication_mean(stats, BEST_POST, points=21)
-    assert steps[-1] == 21000.0
-    assert mean[-1] == pytest.approx(100.0)
-    assert sd[-1] == pytest.approx(0.0)
-    assert mean[10] == pytest.approx((50.0 + 50.0 + 1000.0) / 3)
-    steps, mean, sd = plots.replication_mean([stats[0], stats[2]], BEST_POST, points=21)
-    assert np.isnan(mean[-1])
-
-
-def test_several_folders_are_told_apart(tmp_path, drawn):
-    for parent in ("old", "new"):
-        (tmp_path / parent).mkdir()
-        save_run(tmp_path / parent / "acrobot", 1, stat_of(5))
-    plots.plot_stat(
-        [tmp_path / "old" / "acrobot", tmp_path / "new" / "acrobot"], tmp_path / "a.png"
-    )
-    assert set(lines_of(drawn[0])) == {"old/acrobot, 1 run", "new/acrobot, 1 run"}
-
-
-@pytest.mark.parametrize("generations", [1, 2, 100_000])
-@pytest.mark.parametrize("last", [0.0, 500.0])
-def test_curves_of_any_length_are_drawn(tmp_path, drawn, generations, last):
-    save_run(tmp_path, 1, stat_of(generations, last))
-    plots.plot_stat([tmp_path], tmp_path / "a.png")
-    for line in lines_of(drawn[0]).values():
-        assert len(line) <= plots.MAX_POINTS
-        assert line[-1, 0] == 1000.0 * generations
-    assert imread(tmp_path / "a.png")[..., :3].std() > 0.01
-
-
-def test_a_damaged_file_is_an_error_if_it_was_named(tmp_path):
-    (tmp_path / "statS1.npy").write_bytes(b"junk")
-    with pytest.raises(BotschoolError, match="not a stat file"):
-        plots.plot_stat([tmp_path / "statS1.npy"], tmp_path / "a.png")
-
-
-@pytest.mark.parametrize(
-    ("steps", "text"), [(0, "0"), (500, "500"), (1500, "1.5k"), (2e6, "2M"), (12.5e6, "12.5M")]
-)
-def test_steps_are_written_short(steps, text):
-    assert plots.format_steps(steps) == text
-
-
 def test_averages_are_printed_and_drawn(tmp_path, capsys, drawn):
     for seed, last in enumerate((1.0, 2.0, 6.0)):
         save_run(tmp_path / "acrobot", seed, stat_of(3, last))
@@ -255,16 +188,6 @@ def test_averages_are_printed_and_drawn(tmp_path, capsys, drawn):
     assert ["acrobot", "3.00", "6.57", "2.65", "3", "1.00", "6.00"] in rows
     assert ["pendulum", "-150.0", "-", "-", "1", "-150.0", "-150.0"] in rows
     assert [bar.get_width() for bar in drawn[0].axes[0].patches] == [3.0, -150.0]
-
-
-def test_without_display_averages_are_printed_and_advice_is_given(tmp_path, capsys):
-    save_run(tmp_path / "acrobot", 1, stat_of(3))
-    plots.plot_ave([tmp_path / "acrobot"])
-    out, errors = capsys.readouterr()
-    assert "acrobot" in out
-    assert errors.startswith("note: there is no display") and "-o FILE.png" in errors
-    with pytest.raises(BotschoolError, match=r"-o FILE\.png"):
-        plots.plot_stat([tmp_path / "acrobot"])
 
 
 @pytest.mark.parametrize(
@@ -277,23 +200,6 @@ def test_pictures_that_cannot_be_written(tmp_path, name, message):
     for plot in (plots.plot_stat, plots.plot_ave):
         with pytest.raises(BotschoolError, match=message):
             plot([tmp_path], tmp_path / name)
-
-
-def test_an_interrupted_picture_leaves_the_old_one(tmp_path, monkeypatch):
-    from matplotlib.figure import Figure
-
-    save_run(tmp_path / "runs", 1, stat_of(3))
-    (tmp_path / "a.png").write_text("old")
-
-    def full_disk(figure, path, **kwargs):
-        path.write_text("half")
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(Figure, "savefig", full_disk)
-    with pytest.raises(BotschoolError, match="No space left"):
-        plots.plot_stat([tmp_path / "runs"], tmp_path / "a.png")
-    assert (tmp_path / "a.png").read_text() == "old"
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.png", "runs"]
 
 
 # --- The page that `botschool es` writes beside a run's files.
@@ -342,11 +248,6 @@ def test_a_run_ends_with_a_page_about_itself(run):
     assert not re.findall(r"(?:src|href)=.?(?:https?:)?//", text)  # nothing comes from elsewhere
 
 
-def test_what_differs_from_the_default_stands_out(run):
-    text = (run[1] / "pageS3.html").read_text()
-    assert "<tr class=own><td>nhiddens</td>" in text and "<tr><td>nlayers</td>" in text
-
-
 def test_the_curve_goes_through_the_stat_file():
     rows = np.zeros((3, 6))
     rows[:, 0], rows[:, 2], rows[:, 3], rows[:, 4] = [10, 20, 40], [1, 5, 9], [0, 5, 9], [0, 0, 9]
@@ -355,26 +256,6 @@ def test_the_curve_goes_through_the_stat_file():
     best = np.array([pair.split(",") for pair in lines["best"].split()], dtype=float)
     assert np.diff(best[:, 0]) == pytest.approx(np.diff(best[:, 0])[0] * np.array([1, 2]))
     assert best[2, 1] == 10 and best[0, 1] - best[1, 1] == pytest.approx(best[1, 1] - best[2, 1])
-
-
-def test_curves_that_are_flat_long_or_unknown_are_drawn():
-    flat = np.ones((2, 6))
-    for height in (1.0, 0.0, -1e50, 1e99):
-        assert "nan" not in curve(flat * height)
-    long = np.cumsum(np.ones((10_000, 6)), axis=0)
-    assert len(curve(long)) < 40_000
-    unknown = np.ones((2, 6))
-    unknown[:, 2] = np.nan, 3
-    assert "nan" not in curve(unknown)
-
-
-def test_a_page_can_be_asked_for_at_any_time(run, command, refused, tmp_path):
-    path, folder = run
-    page = folder / "pageS3.html"
-    page.unlink()
-    code, out, errors = command("es", "-f", path, "-s", 3, "-o", folder, "--page")
-    assert (code, errors) == (0, "") and out == f"page: {page}\n" and page.exists()
-    refused("es", "-f", path, "-s", 4, "-o", folder, "--page", says="statS4.npy")
 
 
 @pytest.mark.slow

@@ -5,9 +5,8 @@ import itertools
 import numpy as np
 import pytest
 
-from botschool.analysis import comparison, landscape
+from botschool.analysis import comparison
 from botschool.analysis.comparison import compare, verdict
-from botschool.terminal import readable
 
 INI = "[EXP]\nenvironment = CartPole-v1\n[POLICY]\nepisodes = 1\n[ALGO]\nmaxmsteps = 0.002\n"
 
@@ -64,34 +63,6 @@ def test_the_command_compares_and_draws(runs, command, refused, tmp_path):
     refused("compare", runs / "a", runs / "a", says="itself")
     refused("compare", runs / "a", runs / "no", says="no folder")
     refused("compare", runs / "a", runs / "b", "-o", tmp_path / "x.txt", says=".png")
-
-
-def test_directions_are_orthogonal_and_as_long_as_the_robot():
-    robot = np.arange(30.0)
-    pair = landscape.directions(1, robot)
-    assert pair @ pair.T == pytest.approx(np.eye(2) * np.sum(robot**2), abs=1e-9)
-    assert (landscape.directions(1, robot) == pair).all()
-    assert np.isfinite(landscape.directions(1, np.zeros(3))).all()
-
-
-def test_a_landscape_has_the_robot_in_its_middle(tmp_path, monkeypatch, command, refused):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "c.ini").write_text(INI)
-    assert command("es", "-f", "c.ini", "-s", 1)[0] == 0
-    drawn = []
-    monkeypatch.setattr(landscape, "_draw", lambda fitness, *rest: drawn.append(fitness))
-    options = ("-g", "bestgS1.npy", "-o", "l.png", "--points", 4, "--episodes", 3)
-    code, said, _ = command("landscape", "c.ini", *options)
-    assert code == 0 and drawn[0].shape == (5, 5)
-    assert f"bestgS1.npy: {readable(drawn[0][2, 2])} in 3 episodes" in said
-    monkeypatch.undo()
-    monkeypatch.chdir(tmp_path)
-    assert command("landscape", "c.ini", *options)[0] == 0
-    assert (tmp_path / "l.png").stat().st_size > 5000
-    refused("landscape", "c.ini", "-g", "statS1.npy", "-o", "l.png", says="shape")
-    two = INI.replace("CartPole-v1", "ErPredprey\nalgo = coevo2").split("[ALGO]")[0]
-    (tmp_path / "p.ini").write_text(two)
-    refused("landscape", "p.ini", "-g", "bestgS1.npy", "-o", "l.png", says="two sides")
 
 
 @pytest.mark.slow

@@ -8,7 +8,6 @@ import zlib
 import numpy as np
 import pytest
 
-from botschool.errors import BotschoolError
 from botschool.problems.transition import Transition
 from botschool.render import replay
 from botschool.render.scenes import make_scene
@@ -58,17 +57,6 @@ def unpacked(table):
 # The file
 
 
-def test_a_table_comes_back_to_a_65535th_of_its_range():
-    table = np.random.default_rng(1).normal(size=(300, 7)) * [1e-6, 1, 1, 10, 1e3, 1e9, 0] + 5
-    error = np.abs(unpacked(replay.packed(table)) - table)
-    assert (error <= np.ptp(table, axis=0) / 65_535 + 1e-7).all()
-
-
-def test_a_table_without_columns_and_one_that_is_not_finite():
-    assert unpacked(replay.packed(np.zeros((4, 0)))).shape == (4, 0)
-    assert unpacked(replay.packed(np.array([[np.nan, np.inf], [1.0, 2.0]])))[0].tolist() == [0, 0]
-
-
 @pytest.mark.parametrize("name", ["ErDiscrim", "ErPredprey"])
 def test_a_page_holds_what_the_scene_draws(name, tmp_path):
     data = held(arena(tmp_path / "a.html", name))
@@ -85,20 +73,6 @@ def test_a_page_holds_what_the_scene_draws(name, tmp_path):
     assert len(data["scene"]["shapes"]) == len(scene.shapes)
 
 
-def test_a_caught_prey_is_drawn_touching():
-    """Poses leave a gap, as a move that ends in a collision is not carried out."""
-    scene = make_scene("ErPredprey")
-    state = np.array([300.0, 0, 0, 300, 200, 0, 7])
-    assert scene.numbers(state, reward=0.5)[:6].tolist() == [300, 30, 0, 300, 200, 0]
-    assert scene.numbers(state)[:6].tolist() == state[:6].tolist()
-    assert state[1] == 0, "the recorded state stays as it is"
-
-
-def test_the_same_robot_gives_the_same_page(tmp_path):
-    pages = [arena(tmp_path / name).read_bytes() for name in ("a.html", "b.html")]
-    assert pages[0] == pages[1]
-
-
 def test_no_text_ends_the_data_and_nothing_comes_from_elsewhere(tmp_path):
     path = tmp_path / "a.html"
     title = '</script><img src="x">'
@@ -107,36 +81,6 @@ def test_no_text_ends_the_data_and_nothing_comes_from_elsewhere(tmp_path):
     )
     assert held(path)["title"] == title
     assert re.findall(r"(?:https?:)?//[a-z]", path.read_text("utf-8")) == []
-
-
-def test_pictures_are_thinned_to_what_a_page_may_hold(monkeypatch):
-    monkeypatch.setattr(replay, "MAX_FRAME_BYTES", 30_000)
-    rng = np.random.default_rng(2)
-    frames = replay.Frames()
-    for step in range(60):
-        frames.add(step // 30, step % 30, rng.integers(0, 255, (40, 60, 3), dtype=np.uint8))
-    for episode in (0, 1):
-        kept = frames.of(episode)
-        assert kept["steps"][0] == 0
-        assert len(set(np.diff(kept["steps"]))) == 1 and np.diff(kept["steps"])[0] in (2, 4, 8)
-        assert len(kept["data"]) == len(kept["steps"])
-    assert sum(len(d) for e in (0, 1) for d in frames.of(e)["data"]) < 1.4 * 30_000
-
-
-def test_a_picture_that_stays_is_kept_once():
-    frames = replay.Frames()
-    for step in range(9):
-        frames.add(0, step, np.full((20, 30, 3), 200 if step < 5 else 0, np.uint8))
-    assert frames.of(0)["steps"] == [0, 5]
-
-
-def test_an_arena_refuses_what_it_cannot_draw():
-    scene = make_scene("ErDiscrim")
-    state = np.array([200.0, 200, 0, 100, 100, 1])
-    with pytest.raises(ValueError, match="7 values where 8"):
-        scene.draw(state, None, np.zeros(7))
-    with pytest.raises(ValueError, match="3 values where 2"):
-        scene.draw(state, np.zeros(3))
 
 
 def test_a_trail_shows_where_the_robot_was_and_ends_with_its_episode():
@@ -194,12 +138,6 @@ def test_replays_that_are_refused(refused, tmp_path, monkeypatch, arguments, say
     monkeypatch.chdir(tmp_path)
     refused("es", "-f", write_experiment(tmp_path / "x"), *arguments, says=says)
     assert [path.name for path in tmp_path.iterdir()] == ["x"]
-
-
-def test_a_replay_of_nothing_is_refused(tmp_path):
-    with pytest.raises(BotschoolError, match="no steps"):
-        replay.write_replay(tmp_path / "a.html", "x", "x", [[], []], 10.0, (1, 1))
-    assert list(tmp_path.iterdir()) == []
 
 
 # The page in a browser
@@ -276,61 +214,9 @@ def test_keys_steer_the_page(page, tmp_path):
     assert browser.run("byId('help').open")
 
 
-def test_scrubbing_shows_the_step(page, tmp_path):
-    browser = page(arena(tmp_path / "a.html"), "#episode=2&step=12")
-    assert (episode(browser), step(browser)) == (2, 12)
-    before = picture(browser)
-    browser.run("byId('bar').value = 30; byId('bar').oninput()")
-    assert step(browser) == 30 and picture(browser) != before
-    browser.run("byId('bar').value = 12; byId('bar').oninput()")
-    assert picture(browser) == before
-
-
 def test_the_browser_reads_the_numbers_that_were_packed(page, tmp_path):
     browser = page(path := arena(tmp_path / "a.html"), "#step=7")
     numbers = unpacked(held(path)["episodes"][0]["numbers"])[6]
     np.testing.assert_allclose(browser.run("numbersAt(time)"), numbers, rtol=1e-6, atol=1e-6)
     half = browser.run("numbersAt(6.5)")
     assert half[0] == pytest.approx((numbers[0] + browser.run("numbersAt(7)")[0]) / 2)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("dark", [False, True])
-def test_a_phone_shows_it_all_and_is_steered_by_touch(page, tmp_path, dark):
-    path = arena(tmp_path / "a.html", "ErPredprey")
-    browser = page(path, width=390, height=844, phone=True, dark=dark)
-    assert browser.run("document.documentElement.scrollWidth") <= 390
-    sides = browser.run(
-        "[...document.querySelectorAll('footer button')].map(b => b.getBoundingClientRect().right)"
-    )
-    assert max(sides) <= 390
-    browser.tap("#forward")
-    browser.wait("time === 1")
-    browser.tap("#fitness canvas", x=0.99)
-    browser.wait(f"time === {STEPS - 1}")
-    browser.tap("#play")
-    browser.wait("playing && time > 0")
-
-
-def test_pictures_are_shown_as_they_were(page, tmp_path):
-    colours = [(220, 30, 30), (30, 160, 60), (40, 60, 220)]
-
-    def coloured():
-        for number, colour in enumerate(colours, start=1):
-            frame = np.full((100, 150, 3), colour, np.uint8)
-            yield Transition(
-                number, 1.0, number, np.zeros(1), np.zeros(1), np.zeros(2), frame=frame
-            )
-
-    path = tmp_path / "a.html"
-    replay.write_replay(path, "Frames", "x", [coloured()], 30.0, (1, 1))
-    browser = page(path)
-    for colour in colours:
-        middle = (
-            "[...byId('scene').getContext('2d').getImageData("
-            "byId('scene').width / 2, byId('scene').height / 2, 1, 1).data.slice(0, 3)]"
-        )
-        browser.wait("pictureAt(Math.floor(time)).complete")
-        browser.run("drawPicture()")
-        np.testing.assert_allclose(browser.run(middle), colour, atol=12)
-        browser.press("ArrowRight")

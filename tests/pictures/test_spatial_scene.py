@@ -1,19 +1,15 @@
 """Pictures of bodies in space, in films and in pages."""
 
 import json
-import re
 import shutil
 import subprocess
-from itertools import islice
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from botschool import _core
-from botschool.config import PolicyConfig
 from botschool.problems import make
-from botschool.problems.native import NativeProblem
 from botschool.render import replay
 from botschool.render.scenes import make_scene, scene_of
 from botschool.render.space import followed
@@ -41,13 +37,6 @@ def at(name, x=0.0, z=None, seed=None):
     return state
 
 
-def played(name, steps):
-    """Steps of a random robot."""
-    problem = NativeProblem(name)
-    policy = problem.policy(PolicyConfig(nhiddens=4))
-    return problem, islice(problem.play(policy, policy.initial(1), None, 1, 0, steps), steps)
-
-
 @pytest.mark.parametrize("name", BODIES)
 def test_a_film_shows_the_body_its_shadow_and_its_way(name):
     scene = make_scene(name)
@@ -64,29 +53,6 @@ def test_a_film_shows_the_body_its_shadow_and_its_way(name):
     assert (make_scene(name).draw(at(name, x=0.5)) != frame).any(), "marks show where it is"
 
 
-@pytest.mark.parametrize("name", ["SpatialAnt-v5", "SpatialHumanoid-v5"])
-def test_the_shadow_lies_under_what_touches_the_ground(name):
-    """A ball on the ground is drawn where its shadow is."""
-    scene = make_scene(name)
-    body = _core.SpatialBody(BODIES[name])
-    state = at(name, seed=3)
-    places = body.places(state[: body.coordinates])
-    low = min(
-        places[link, 0, 2] + min((a @ places[link, 1:])[2], (b @ places[link, 1:])[2]) - radius
-        for link, a, b, radius in (
-            (limb[0], np.array(limb[1:4]), np.array(limb[4:7]), limb[7])
-            for limb in scene.space.limbs
-        )
-    )
-    state[2] -= low
-    frame = scene.draw(state)
-    above = scene.draw(state + np.eye(len(state))[2] * 200)
-    rows, _ = np.nonzero((above.astype(int) - frame).any(axis=2))
-    seen, _ = scene._painter._seen(np.array([[*state[:2], 0.0]]))
-    half = scene._painter._pixels / 2
-    assert abs(rows.max() - seen[0, 1] / 2) < 0.7 * half, "nothing lies far below the robot"
-
-
 @pytest.mark.parametrize("options", ["slope=0.3", "step=0.3"])
 def test_ground_that_rises_is_drawn_under_the_robot(options):
     """What stands on it looks as on flat ground."""
@@ -97,30 +63,6 @@ def test_ground_that_rises_is_drawn_under_the_robot(options):
     body = np.ptp(level.astype(int), axis=2) > 40
     assert (frame == level)[body].mean() > 0.99
     assert (frame == level).all() == options.startswith("step"), "far from the step it is flat"
-
-
-def test_the_camera_follows_smoothly():
-    """It is beside a robot of constant speed, and does not swing with the gait."""
-    seconds = np.arange(100)[:, None] / 20
-    steady = seconds * (3.0, -1.0)
-    swinging = steady + 0.05 * np.sin(2 * np.pi * 2.5 * seconds)
-    newest = range(99, 20, -1)
-    window = [np.arange(i, i - 21, -1) for i in newest]
-    assert all(np.abs(followed(steady[w]) - steady[w[0]]).max() < 1e-9 for w in window)
-    camera = np.array([followed(swinging[w]) - steady[w[0]] for w in window])
-    assert np.ptp(camera) < 0.3 * np.ptp(swinging - steady)
-
-
-def test_an_end_on_the_ground_is_charted():
-    scene = make_scene("SpatialAnt-v5")
-    state = at("SpatialAnt-v5")
-    [(label, columns)] = scene.charted
-    assert label == "ground" and len(columns) == 4
-    assert scene.numbers(state)[list(columns)].tolist() == [0, 0, 0, 0]
-    balls = _core.SpatialBody("ant").table["balls"]
-    for place, leg in ((i, ball[0]) for i, ball in enumerate(balls) if ball[0] in (2, 4, 6, 8)):
-        state[len(state) - len(balls) + place] = 10.0
-        assert scene.numbers(state)[columns[leg // 2 - 1]] == 1.0
 
 
 HAMMER = """<robot name="hammer"><link name="head">
@@ -197,40 +139,3 @@ def test_a_page_puts_limbs_and_camera_where_films_do(name, tmp_path):
     for i, camera in enumerate(answer["cameras"]):
         window = [rows[max(i - back, 0)] for back in range(scene.memory + 1)]
         np.testing.assert_allclose(camera, followed(np.array(window)), rtol=0, atol=1e-12)
-
-
-@pytest.fixture
-def page(tmp_path):
-    """A replay of a random ant."""
-    problem, steps = played("SpatialAnt-v5", 60)
-    scene = make_scene("SpatialAnt-v5")
-    path = tmp_path / "ant.html"
-    replay.write_replay(path, "ant", "a robot", [steps], problem.fps, (27, 8), scene)
-    return path
-
-
-def test_a_replay_is_small_and_only_such_replays_hold_its_drawing(page, tmp_path):
-    text = page.read_text("utf-8")
-    assert "drawSpace(pen, width, height) {" in text
-    assert page.stat().st_size < 250_000
-    assert re.findall(r"https?://", text) == []
-    problem, steps = played("PlanarHopper-v5", 5)
-    scene = make_scene("PlanarHopper-v5")
-    replay.write_replay(tmp_path / "b.html", "b", "b", [steps], problem.fps, (11, 3), scene)
-    assert "drawSpace(pen, width, height) {" not in (tmp_path / "b.html").read_text("utf-8")
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("dark", [False, True])
-def test_the_picture_depends_on_the_time_alone(page, browser, dark):
-    browser.errors.clear()
-    browser.resize(390, 844, phone=True, dark=dark)
-    browser.open(page, "#step=30")
-    picture = "byId('scene').toDataURL()"
-    before = browser.run(picture)
-    assert len(before) > 10_000
-    browser.run("seek(3)")
-    assert browser.run(picture) != before
-    browser.run("seek(29)")
-    assert browser.run(picture) == before
-    assert browser.errors == []

@@ -2,12 +2,10 @@
 
 import os
 import random
-import re
 import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,7 +13,6 @@ import pytest
 from botschool.errors import BotschoolError
 from botschool.rl.agent import Agent, play
 from botschool.rl.folder import RunFolder
-from botschool.rl.model import choose
 from botschool.rl.native import PPO, training
 from botschool.rl.training import train
 
@@ -186,22 +183,6 @@ def test_replications_are_the_trainings_by_themselves(tmp_path):
     assert_same(found[6], files_of(alone.path))
 
 
-def test_who_trains_what():
-    assert choose("ppo", "CartPole-v1").engine == "native"
-    assert choose("ppo", "botschool/Discrim-v0").engine == "native"
-    pytest.importorskip("stable_baselines3")
-    assert choose("a2c", "CartPole-v1").engine == "sb3"
-    assert choose("ppo", "CartPole-v1", params={"use_sde": False}).engine == "native"
-    assert choose("ppo", "CartPole-v1", vec_env="subproc").engine == "sb3"
-    assert choose("ppo", "CartPole-v1", wrappers="TimeAwareObservation").engine == "sb3"
-    assert choose("ppo", "CartPole-v1", engine="sb3").engine == "sb3"
-    for options in ({"algo": "a2c"}, {"policy": "lstm"}, {"env": "MountainCar-v0"}):
-        with pytest.raises(BotschoolError, match="native engine cannot"):
-            choose(**({"algo": "ppo", "env": "CartPole-v1", "engine": "native"} | options))
-    with pytest.raises(BotschoolError, match="--engine"):
-        choose("ppo", "CartPole-v1", engine="fast")
-
-
 @pytest.mark.parametrize(
     "damage",
     [
@@ -226,17 +207,6 @@ def test_damaged_checkpoints_that_fuzzers_found(tmp_path, damage):
     assert (run.path / "progress.csv").read_bytes() == before
 
 
-@pytest.mark.parametrize("line", ["seed: x", "envs: 0", "normalize: 3", "parameters: [1]"])
-def test_settings_of_another_kind_that_fuzzers_found(tmp_path, line):
-    run = train("ppo", "CartPole-v1", tmp_path, steps=600, evaluations=1, episodes=2)
-    name = line.partition(":")[0]
-    text = re.sub(rf"^{name}:.*(\n .*)*", line, run.config.read_text(), flags=re.MULTILINE)
-    assert line in text
-    run.config.write_text(text)
-    with pytest.raises(BotschoolError, match="does not describe a training"):
-        Agent.load(run.best)
-
-
 @pytest.mark.slow
 def test_what_cannot_go_on_is_a_sentence(tmp_path):
     run = train("ppo", "CartPole-v1", tmp_path, steps=600, evaluations=1, episodes=2)
@@ -249,38 +219,3 @@ def test_what_cannot_go_on_is_a_sentence(tmp_path):
     (run.path / "best_model.npz").write_bytes(b"PK rubbish")
     with pytest.raises(BotschoolError, match="damaged"):
         Agent.load(run.best)
-
-
-@pytest.mark.slow
-def test_an_evolved_robot_beside_a_trained_one(tmp_path, command, refused):
-    """The robot that comes with botschool hops far; an agent that has hardly learned falls."""
-    pytest.importorskip("imageio_ffmpeg")
-    import imageio.v3 as imageio
-
-    env, evolved = "botschool/PlanarHopper-v5", ("planarhopper.ini", "-g", "planarhopper.npy")
-    agent = train("ppo", env, tmp_path, steps=2000, evaluations=1, episodes=2).path
-    beside = (agent, "--beside", *evolved)
-    code, out, _ = command("rl", "enjoy", *beside, "--episodes", 2, "--render", "none")
-    assert code == 0
-    pattern = r"(trained|evolved) \S+ (\S+)  episode (\d)  return (\S+)  steps (\d+)"
-    lines = re.findall(pattern, out)
-    assert [line[:3] for line in lines] == [
-        *(("trained", agent.name, number) for number in "12"),
-        *(("evolved", "planarhopper.npy", number) for number in "12"),
-    ]
-    assert all(float(line[3]) < 500 for line in lines[:2])
-    assert all(float(line[3]) > 2500 and line[4] == "1000" for line in lines[2:])
-    assert len({line[3] for line in lines[2:]}) == 2  # each episode has its own start
-    code, out, _ = command("rl", "video", *beside, "-f", tmp_path / "b.mp4", "-n", 150)
-    film = imageio.imread(tmp_path / "b.mp4")
-    assert code == 0 and len(film) == 150
-    left, right = film[..., : film.shape[2] // 2 - 4, :], film[..., film.shape[2] // 2 + 4 :, :]
-    assert np.abs(left[0].astype(int) - right[0]).mean() < 5  # they start alike
-    assert np.abs(left[-1].astype(int) - left[-2]).max() < 20  # the fallen one stays, paler
-    assert np.abs(right[-1].astype(int) - right[-10]).max() > 50
-    assert left[-1].mean() > left[0].mean() + 3
-    refused("rl", "enjoy", agent, "--beside", "planarhopper.ini", says=["give both"])
-    genotypes = Path(__file__).parents[2] / "data/genotypes"
-    acrobot = genotypes.parent / "experiments/acrobot.ini"
-    other = ("--beside", acrobot, "-g", genotypes / "planarhopper.npy")
-    refused("rl", "enjoy", agent, *other, says=["acrobot.ini evolves robots on Acrobot-v1", env])

@@ -72,12 +72,3 @@ def test_a_state_of_another_training_is_refused():
         other.restore(state)
     with pytest.raises(ValueError, match="not the state"):
         other.restore({})
-
-
-def test_seeds_and_steps_change_the_draws():
-    env, options = KINDS[1]
-    one, two = (
-        PPO(env, seed=seed, n_steps=30, **options).collect().actions.copy() for seed in (1, 2)
-    )
-    assert not np.isin(one.ravel(), two.ravel()).any()
-    assert len(np.unique(one)) == one.size

@@ -1,10 +1,8 @@
 """`botschool rl`: tiny trainings, their files, and agents that are what was measured."""
 
-import json
 import os
 import signal
 import sys
-from zipfile import ZipFile
 
 import numpy as np
 import pytest
@@ -13,11 +11,9 @@ import yaml
 from botschool.errors import BotschoolError
 from botschool.rl import settings
 from botschool.rl.agent import Agent, play
-from botschool.rl.folder import RunFolder, find_runs
-from botschool.rl.parameters import complete
+from botschool.rl.folder import RunFolder
 from botschool.rl.training import train
 from botschool.seeds import POST_EVALUATION_SEED
-from botschool.wrappers import parse
 from running import finish, one_sentence, start
 
 pytest.importorskip("stable_baselines3")
@@ -71,14 +67,6 @@ def test_a_training_leaves_its_files(trained):
     np.testing.assert_array_equal(found.returns, found.lengths)  # CartPole pays 1 a step
 
 
-def test_folders_are_numbered(tmp_path):
-    (tmp_path / "ppo" / "CartPole-v1_7").mkdir(parents=True)
-    (tmp_path / "ppo" / "CartPole-v1_x").mkdir()
-    run = tiny(tmp_path, steps=64)
-    assert run.path.name == "CartPole-v1_8" and run.number == 8
-    assert [found.path for found in find_runs(tmp_path)] == [run.path]
-
-
 def test_the_config_says_all(trained):
     used = trained.settings()
     assert (used.algo, used.env, used.policy, used.seed) == ("ppo", "CartPole-v1", "mlp", 1)
@@ -94,13 +82,6 @@ def test_the_saved_models_are_those_that_were_measured(trained):
     np.testing.assert_array_equal(again(trained, trained.last), found.returns[-1])
 
 
-def test_of_equally_good_models_the_later_one_is_the_best(tmp_path):
-    run = tiny(tmp_path, params=SMALL | {"learning_rate": 0.0})
-    assert np.unique(run.evaluations().returns.mean(axis=1)).size == 1
-    with ZipFile(run.best) as model:
-        assert json.loads(model.read("data"))["num_timesteps"] == 256
-
-
 @pytest.mark.parametrize("policy", ["mlp", "lstm"])
 def test_so_they_are_with_normalisation_and_memory(tmp_path, policy):
     params = SMALL | {"normalize": True}
@@ -109,12 +90,6 @@ def test_so_they_are_with_normalisation_and_memory(tmp_path, policy):
     assert run.settings().normalize
     assert again(run, run.best).mean() == pytest.approx(found.best, rel=1e-5)
     np.testing.assert_allclose(again(run, run.last), found.returns[-1], rtol=1e-5)
-
-
-def test_images_are_seen_by_a_convolutional_network(tmp_path):
-    run = tiny(tmp_path, env="tiny_envs:Picture-v0", steps=64)
-    assert run.settings().policy == "cnn" and not run.settings().normalize
-    np.testing.assert_allclose(again(run, run.last), run.evaluations().returns[-1], rtol=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -139,13 +114,6 @@ def test_the_seed_decides(trained, tmp_path):
     assert not np.array_equal(other.evaluations().returns, trained.evaluations().returns)
 
 
-def test_measuring_and_saving_do_not_change_what_is_learned(trained, tmp_path):
-    seldom = tiny(tmp_path, evaluations=1)
-    np.testing.assert_array_equal(
-        seldom.evaluations().returns[-1], trained.evaluations().returns[-1]
-    )
-
-
 # logs
 
 
@@ -164,44 +132,7 @@ def test_tensorboard_shows_the_indicators(trained):
     assert final.value == pytest.approx(trained.evaluations().last)
 
 
-def test_the_table_of_indicators_is_read(trained):
-    log = trained.log()
-    assert set(log) > SHOWN_BY_TENSORBOARD - {"eval/mean_reward"}
-    assert log["steps"][-1] == 256
-    assert all(values.shape == log["steps"].shape for values in log.values())
-
-
-def test_the_discounted_return_is_that_of_whole_episodes(tmp_path):
-    """CartPole pays 1 a step, so an episode of n steps gives (1 - gamma^n) / (1 - gamma)."""
-    run = tiny(tmp_path, params=SMALL | {"gamma": 0.5, "normalize": True})
-    log = run.log()
-    found = log["rollout/discounted_return"]
-    np.testing.assert_allclose(found[np.isfinite(found)], 2.0, atol=0.02)
-
-
 # defaults.yaml
-
-
-@pytest.mark.parametrize("algo", settings.ALGORITHMS)
-def test_defaults_are_hyperparameters_of_their_algorithm(algo):
-    from botschool.rl.model import algorithm_class
-
-    model_class = algorithm_class(algo, "mlp")
-    for problem, entry in settings._defaults()[algo].items():
-        entry = dict(entry)
-        assert entry.pop("steps") > 0 and entry.pop("envs") > 0, problem
-        assert isinstance(entry.pop("normalize", False), bool)
-        around = [parse(entry.pop(name, "")) for name in ("wrappers", "training_wrappers")]
-        assert all(isinstance(each._find(), type) for wrappers in around for each in wrappers)
-        complete(model_class, model_class.policy_aliases["MlpPolicy"], entry)
-
-
-def test_a_problem_without_version_stands_for_all():
-    walker = settings.defaults("ppo", "BipedalWalker-v3")
-    assert walker["envs"] == 32 and settings.defaults("ppo", "BipedalWalker-v9") == walker
-    assert settings.defaults("ppo", "Unheard-v0") == settings.defaults("ppo", "default")
-    assert settings.defaults("ppo", "botschool/Discrim-v0")["steps"] == 500_000
-    assert settings.defaults("sac", "BalanceBotBulletEnv-v0")["steps"] == 300_000
 
 
 # the command
@@ -230,27 +161,6 @@ def test_the_command_trains_and_enjoys(tmp_path, command):
     returns = [float(line.split()[3]) for line in out.splitlines() if line.startswith("episode")]
     mean, sd = np.mean(returns), np.std(returns)
     assert f"mean {mean:.2f}  standard deviation {sd:.2f}" in out and len(returns) == 4
-
-
-def test_the_table_of_trainings(trained, command):
-    code, out, _ = command("rl", "list", trained.path.parent.parent)
-    assert code == 0
-    best = f"{trained.evaluations().best:.1f}"
-    assert best in out and "n_steps=32" in out and "CartPole-v1_1" in out.replace("\n", "")
-
-
-def test_a_film(trained, tmp_path, command):
-    import imageio.v3
-
-    film = tmp_path / "pole.mp4"
-    code, out, _ = command("rl", "video", trained.path, "-f", film, "--episodes", 1)
-    assert code == 0 and f"video: {film}" in out
-    _, told, _ = command("rl", "enjoy", trained.path, "--render", "none", "--episodes", 17)
-    first, *_, last, _ = told.splitlines()
-    assert first in out and last.startswith("episode 17 ")
-    frames = imageio.v3.imread(film)
-    assert f"steps {len(frames)}\n" in out
-    assert frames.std() > 5
 
 
 # interruptions
@@ -322,17 +232,6 @@ def test_a_full_disk(tmp_path):
     folder = tmp_path / "ppo" / "CartPole-v1_1"
     one_sentence(code, errors, [folder, "cannot be written", "free some space"])
     assert not list(folder.glob(".*")) and not list(folder.glob("*.zip"))
-
-
-@pytest.mark.long
-@pytest.mark.parametrize(
-    ("env", "target"), [("CartPole-v1", 500.0), ("Pendulum-v1", -200.0), ("Acrobot-v1", -85.0)]
-)
-def test_the_defaults_of_ppo_reach_their_targets(tmp_path, env, target):
-    run = train("ppo", env, tmp_path, seed=1)
-    seeds = list(range(300_000, 300_100))
-    returns, _ = play(Agent.load(run.best), [run.make_env() for _ in seeds], seeds)
-    assert returns.mean() >= target
 
 
 def test_settings_survive_the_file(trained, tmp_path):

@@ -1,7 +1,6 @@
 """The trained agents that come with botschool: weights alone, found, played, installed."""
 
 import io
-import json
 import pickle
 import re
 import shlex
@@ -10,12 +9,11 @@ import sys
 import zipfile
 from pathlib import Path
 
-import gymnasium
 import numpy as np
 import pytest
 
 from botschool.errors import BotschoolError
-from botschool.problems.making import PACKAGES, make_env
+from botschool.problems.making import make_env
 from botschool.rl import shipped, weights
 from botschool.rl.agent import Agent, play, save_weights
 from botschool.rl.folder import RunFolder
@@ -23,15 +21,10 @@ from botschool.rl.parameters import parse
 from botschool.rl.training import train
 from botschool.rl.watch import Player
 
-ROOT = Path(__file__).parents[2]
 OURS = shipped.agents()
 NAMES = [f"{each.algo}/{each.env}" for each in OURS]
 LARGEST = 400_000
 """Bytes of an agent's file."""
-OF_PHYSICS = ("InvertedPendulum-v5", "InvertedDoublePendulum-v5", "Reacher-v5", "Hopper-v5",
-              "BalanceBotBulletEnv-v0")  # fmt: skip
-"""Problems of MuJoCo and Bullet."""
-
 pytest.importorskip("sb3_contrib")
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("by_sb3")]
 
@@ -40,18 +33,6 @@ def agent_of(algo, env):
     found = shipped.find(algo, env)
     assert found is not None
     return found
-
-
-def test_there_are_enough_of_them():
-    ppo = {each.env for each in OURS if each.algo == "ppo"}
-    assert len(ppo) >= 8
-    assert len(ppo & set(OF_PHYSICS)) >= 3
-    assert all(each.episodes == 100 for each in OURS)
-
-
-def test_the_folder_holds_numbers_and_words_only():
-    suffixes = {path.suffix for path in shipped.folder().rglob("*") if path.is_file()}
-    assert suffixes == {".npz", ".yaml", ".json", ".md"}
 
 
 @pytest.mark.parametrize("ours", OURS, ids=NAMES)
@@ -122,18 +103,6 @@ def test_the_users_own_comes_first(command, tmp_path):
     watch = ("rl", "enjoy", "--algo", "ppo", "--env", "CartPole-v1", "-o", tmp_path)
     code, out, _ = command(*watch, "--episodes", 1, "--render", "none")
     assert code == 0 and out.startswith(f"agent: {run.path}\n")
-
-
-def test_what_does_not_come_along(refused, tmp_path, monkeypatch):
-    watch = ("rl", "enjoy", "-o", tmp_path, "--algo")
-    hint = ["rl train --algo a2c --env Taxi-v3", "botschool rl list --ours"]
-    refused(*watch, "a2c", "--env", "Taxi-v3", says=["no training of a2c on Taxi-v3", *hint])
-    pole = (*watch, "ppo", "--env", "CartPole-v1")
-    refused(*pole, "--exp-id", 3, says="no training number 3 of ppo")
-    refused("rl", "enjoy", "-o", tmp_path, says="botschool rl list --ours")
-    monkeypatch.setattr(shipped, "folder", lambda: tmp_path)
-    assert shipped.agents() == []
-    refused(*pole, says="no training of ppo on CartPole-v1")
 
 
 def test_without_the_packages_that_play_them(tmp_path, refused, monkeypatch):
@@ -247,32 +216,4 @@ def test_nothing_that_could_run_is_loaded(tmp_path):
     Agent.load(copy)
 
 
-def test_a_file_that_would_fill_the_memory(tmp_path, monkeypatch):
-    ours = agent_of("ppo", "CartPole-v1")
-    monkeypatch.setattr(weights, "MOST_BYTES", 10_000)
-    with pytest.raises(ValueError, match="too large"):
-        weights.numbers(ours.path)
-
-
 # where they are
-
-
-def test_they_are_found_in_an_installed_package(tmp_path, monkeypatch):
-    material = tmp_path / "site-packages" / "botschool" / "material"
-    shutil.copytree(shipped.folder(), material / "data" / "agents")
-    monkeypatch.setattr(shipped, "material", lambda: material)
-    assert shipped.folder() == material / "data" / "agents"
-    assert len(shipped.agents()) == len(OURS)
-
-
-def test_environments_of_packages_say_what_to_install(tmp_path, refused, monkeypatch):
-    monkeypatch.delitem(gymnasium.registry, "BalanceBotBulletEnv-v0", raising=False)
-    monkeypatch.setitem(sys.modules, PACKAGES["BalanceBotBulletEnv-v0"], None)
-    watch = ("rl", "enjoy", "-o", tmp_path, "--algo", "ppo", "--env", "BalanceBotBulletEnv-v0")
-    refused(*watch, says="comes in a package of its own")
-
-
-def test_each_has_a_row_of_what_was_measured():
-    rows = json.loads((shipped.folder() / shipped.TABLE).read_text())
-    places = {shipped.place(shipped.folder(), row["algo"], row["env"]) for row in rows}
-    assert places == set(shipped.folder().rglob(weights.WEIGHTS))

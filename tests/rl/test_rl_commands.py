@@ -5,21 +5,18 @@ import pytest
 from matplotlib.image import imread
 
 from botschool.analysis import plots
-from botschool.analysis.runs import BEST_POST, STEPS
-from botschool.analysis.trainings import POST_EVALUATED, TRAINING_EPISODES, read_curve
+from botschool.analysis.runs import BEST_POST
 from botschool.errors import BotschoolError
 from botschool.rl.agent import Agent, play
 from botschool.rl.folder import Evaluations, RunFolder
-from botschool.rl.model import choose
 from botschool.rl.parameters import parse
 from botschool.rl.settings import Settings
 from botschool.rl.spellings import translated
-from botschool.rl.training import learn, train
+from botschool.rl.training import train
 from botschool.seeds import POST_EVALUATION_SEED
 from test_analysis import drawn, lines_of, save_run, stat_of  # noqa: F401  (drawn is a fixture)
 
 pytest.importorskip("sb3_contrib")
-callbacks = pytest.importorskip("botschool.rl.callbacks")
 
 
 def tiny(folder, algo, env, **options):
@@ -60,58 +57,6 @@ def test_the_newer_algorithms_train(algo, env, params, tmp_path):
     assert any("loss" in name or name.startswith("train/") for name in run.log())
 
 
-@pytest.mark.usefixtures("by_sb3")
-def test_images_with_memory(tmp_path):
-    params = {"n_steps": 8, "batch_size": 8, "n_epochs": 1, "lstm_hidden_size": 4}
-    options = {
-        "steps": 8,
-        "envs": 1,
-        "evaluations": 1,
-        "episodes": 1,
-        "policy": "cnnlstm",
-        "params": params,
-    }
-    run = tiny(tmp_path, "ppo", "tiny_envs:Picture-v0", **options)
-    assert run.settings().policy == "cnnlstm"
-    np.testing.assert_allclose(again(run), run.evaluations().returns[-1], rtol=1e-4)
-    with pytest.raises(BotschoolError, match=r"shows no images.*a cnnlstm policy"):
-        tiny(tmp_path, "ppo", "CartPole-v1", policy="cnnlstm")
-    with pytest.raises(BotschoolError, match="sac has no cnnlstm policy: use --algo ppo with"):
-        tiny(tmp_path, "sac", "tiny_envs:Tiny-v0", policy="cnnlstm")
-
-
-@pytest.mark.usefixtures("by_sb3")
-def test_learning_moves_the_policy_of_ars(tmp_path):
-    run = tiny(tmp_path, "ars", "tiny_envs:Tiny-v0", params={"n_delta": 4, "learning_rate": 0.5})
-    assert len(set(run.evaluations().returns.mean(axis=1))) > 1
-    assert run.settings().parameters["net_arch"] == []
-
-
-@pytest.mark.usefixtures("by_sb3")
-def test_hindsight_needs_goals(tmp_path):
-    with pytest.raises(BotschoolError, match=r"her cannot be trained on CartPole-v1.*no goals"):
-        tiny(tmp_path, "her", "CartPole-v1")
-    with pytest.raises(BotschoolError, match="must be future or final or episode"):
-        tiny(tmp_path, "her", "tiny_envs:Goal-v0", params={"goal_selection_strategy": "past"})
-    with pytest.raises(BotschoolError, match="SAC has no hyperparameter n_sampled_goal"):
-        tiny(tmp_path, "sac", "tiny_envs:Goal-v0", params={"n_sampled_goal": 2})
-
-
-@pytest.mark.usefixtures("by_sb3")
-def test_ars_reads_vectors(tmp_path):
-    with pytest.raises(BotschoolError, match=r"ars reads vectors only.*FlattenObservation"):
-        tiny(tmp_path, "ars", "tiny_envs:Goal-v0")
-    tiny(tmp_path, "ars", "tiny_envs:Goal-v0", wrappers="FlattenObservation", steps=10)
-
-
-@pytest.mark.usefixtures("by_sb3")
-def test_ars_stops_when_it_is_asked(tmp_path):
-    settings = choose("ars", "tiny_envs:Tiny-v0", steps=100_000, evaluations=1, episodes=1)
-    asked = iter(range(100))
-    run, found = learn(settings, tmp_path, lambda *_: None, stopping=lambda: next(asked) > 20)
-    assert 10 < found.steps[-1] < 100 and run.last.exists()
-
-
 # processes
 
 
@@ -124,34 +69,6 @@ def test_environments_in_processes_give_the_same(tmp_path):
     )
     np.testing.assert_array_equal(one.evaluations().returns, other.evaluations().returns)
     assert other.settings().vec_env == "subproc"
-
-
-@pytest.mark.usefixtures("by_sb3")
-@pytest.mark.parametrize(
-    ("fault", "says"), [("nan", "its reward was nan"), ("dies", "ended unexpectedly.*vec-env dumm")]
-)
-def test_an_environment_that_breaks_in_a_process(fault, says, tmp_path, monkeypatch):
-    monkeypatch.setattr(
-        callbacks.PostEvaluation, "_evaluate", lambda self: None
-    )  # it would die, too
-    monkeypatch.setattr(callbacks.PostEvaluation, "_on_step", lambda self: True)
-    with pytest.raises(BotschoolError, match=says):
-        tiny(
-            *(tmp_path, "ppo", f"tiny_envs:Tiny{fault}-v0"),
-            params={"n_steps": 32, "batch_size": 32},
-            vec_env="subproc",
-            envs=1,
-            seed=4,
-        )
-
-
-@pytest.mark.usefixtures("by_sb3")
-def test_other_words_for_processes(tmp_path, refused):
-    refused(
-        *("rl", "train", "--algo", "ppo", "--env", "CartPole-v1", "-o", tmp_path),
-        *("--vec-env", "subprocess"),
-        says="--vec-env is 'subprocess', but must be dummy or subproc",
-    )
 
 
 # wrappers
@@ -172,14 +89,6 @@ def test_agents_are_trained_and_watched_in_wrappers(tmp_path, command):
     code, out, _ = command("rl", "list", tmp_path)
     assert "Doubled" in out.replace("\n", "").replace(" ", "")
     assert command("rl", "video", run, "-f", tmp_path / "a.gif", "--episodes", 1)[0] == 0
-
-
-@pytest.mark.usefixtures("by_sb3")
-def test_wrappers_that_do_not_exist(tmp_path, refused):
-    own = ("rl", "train", "--algo", "ppo", "--env", "CartPole-v1", "-o", tmp_path, "--wrapper")
-    refused(*own, "FlatenObservation", says="did you mean FlattenObservation?")
-    refused(*own, "NormalizeObservation", says="--params normalize=true")
-    refused(*own, "not_there:X", says="no module not_there")
 
 
 # --- `botschool rl` understands the spellings of Stable Baselines 2 and its Zoo, as in the chapter.
@@ -295,13 +204,6 @@ def test_what_cannot_be_translated(flags, says, tmp_path, refused):
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.usefixtures("by_sb3")
-def test_trainings_that_are_not_there(tmp_path, refused):
-    own = ("rl", "enjoy", "-f", tmp_path, "--algo", "ppo2")
-    refused(*own, "--env", "Taxi-v3", says=["no training of ppo on Taxi-v3", "rl train"])
-    refused(*own, says="--algo ppo --env CartPole-v1")
-
-
 # --- plotstat reads trainings, alone and beside evolution.
 
 
@@ -325,18 +227,6 @@ def save_training(folder, number, means=MEANS, **given):
     rows = ["rollout/ep_rew_mean,time/total_timesteps", "10,500", "30,1500", ",2000", "70,3000"]
     (run.path / "progress.csv").write_text("\n".join(rows) + "\n")
     return run
-
-
-def test_a_training_becomes_a_curve(tmp_path):
-    run = save_training(tmp_path, 1)
-    curve = read_curve(run)
-    assert curve[:, STEPS].tolist() == [0, 1000, 2000, 3000]
-    assert curve[:, POST_EVALUATED].tolist() == MEANS
-    assert curve[:, BEST_POST].tolist() == [0, 50, 50, 90]
-    np.testing.assert_allclose(curve[1:, TRAINING_EPISODES], [20, 43.333333, 70])
-    assert np.isnan(curve[0, TRAINING_EPISODES])
-    counted = read_curve(run, count_evaluations=True)
-    assert counted[:, STEPS].tolist() == [100, 1200, 2300, 3400]
 
 
 def test_one_training_is_drawn(tmp_path, drawn):  # noqa: F811

@@ -8,12 +8,9 @@ from zipfile import ZipFile
 import numpy as np
 import pytest
 
-from botschool.analysis.trainings import TRAINING_EPISODES, read_curve
 from botschool.errors import BotschoolError
 from botschool.rl.agent import Agent, save_weights
 from botschool.rl.folder import RunFolder
-from botschool.rl.parameters import parse
-from botschool.rl.settings import Settings
 from botschool.rl.training import train
 from botschool.rl.weights import WEIGHTS
 
@@ -95,12 +92,6 @@ def test_wrong_hyperparameters(param, says, refused, tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-def test_values_are_read_as_numbers_words_and_lists():
-    items = ["a=1e-3", "b=2", "c=true", "d=[64, 64]", "e=linear 0.1", "f=null", "g=auto_0.1"]
-    values = {"a": 0.001, "b": 2, "c": True, "d": [64, 64], "e": "linear 0.1", "f": None}
-    assert parse(items) == values | {"g": "auto_0.1"}
-
-
 @pytest.mark.slow
 def test_learning_that_explodes(tmp_path):
     params = {"learning_rate": 1e30, "max_grad_norm": 1e30, "n_steps": 32, "batch_size": 32}
@@ -129,10 +120,6 @@ def test_a_model_of_another_environment(trained, refused):
     refused("rl", "enjoy", trained.path, "--env", "Acrobo-v1", says="did you mean Acrobot-v1?")
 
 
-def test_a_model_acts_in_an_environment_of_the_same_kind(trained):
-    Agent.load(trained.best, "CartPole-v0")
-
-
 def test_damaged_models(copy, refused):
     whole = copy.best.read_bytes()
     for content in (b"", b"words", whole[: len(whole) // 2], whole[:-10]):
@@ -144,20 +131,6 @@ def test_damaged_models(copy, refused):
     refused("rl", "enjoy", copy.path, says=[copy.best, "damaged"])
     copy.best.unlink()
     refused("rl", "enjoy", copy.path, says=["no model", "botschool rl train"])
-
-
-def test_a_model_with_other_layers_is_refused(copy, refused):
-    changed = Settings.load(copy.config)
-    changed.parameters["net_arch"] = [8]
-    changed.save(copy.config)
-    refused("rl", "enjoy", copy.path, says="not a model of this training")
-
-
-def test_settings_of_an_unknown_algorithm_are_refused(copy, refused):
-    changed = Settings.load(copy.config)
-    changed.algo = "p p p ppo"
-    changed.save(copy.config)
-    refused("rl", "enjoy", copy.path, says="no algorithm 'p p p ppo'")
 
 
 def test_a_model_whose_numbers_are_not_finite_is_refused(copy, refused):
@@ -196,27 +169,6 @@ def test_damaged_settings(copy, content, refused, command):
     assert code == 0 and "damaged" in out
 
 
-def test_folders_without_trainings(tmp_path, refused):
-    refused("rl", "list", tmp_path, says=["no trainings", "botschool rl train"])
-    refused("rl", "enjoy", "-o", tmp_path, says=["no trainings", "botschool rl train"])
-    refused("rl", "enjoy", tmp_path, says=[tmp_path, "botschool rl list"])
-    refused("rl", "enjoy", tmp_path / "x.zip", says=[tmp_path, "botschool rl list"])
-
-
-def test_pictures_where_there_are_none(trained, tmp_path, refused, monkeypatch):
-    refused("rl", "enjoy", trained.path, "--render", "human", says=["display", "rl video"])
-    refused("rl", "enjoy", trained.path, "--render", "x", says="human or none")
-    refused("rl", "video", trained.path, "-f", tmp_path / "a.txt", says=".mp4")
-
-
-def test_an_output_folder_that_is_a_file(tmp_path, refused):
-    (tmp_path / "results").write_text("precious")
-    refused(
-        *("rl", "train", "--algo", "ppo", "--env", "CartPole-v1", "-o", tmp_path / "results"),
-        says=["cannot be written", "another folder"],
-    )
-
-
 def renamed_array(copy):
     path = copy.path / "evaluations.npz"
     with open(path, "wb") as file:
@@ -250,12 +202,6 @@ def test_evaluations_that_are_none(damage, copy, command):
     assert re.search(r"\s1\s+-\s+-\s+-", out), out
     with pytest.raises(BotschoolError, match="evaluations"):
         copy.evaluations()
-
-
-def test_a_log_without_its_steps_is_left_out(copy):
-    """As the fuzzer found: the curve has no mean of the training's own episodes then."""
-    (copy.path / "progress.csv").write_text("rollout/ep_rew_mean,time/fps\n20.5,1\n3,1\n")
-    assert np.isnan(read_curve(copy)[:, TRAINING_EPISODES]).all()
 
 
 @pytest.mark.parametrize("name", ["mean", "clip", "epsilon"])

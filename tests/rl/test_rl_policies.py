@@ -2,17 +2,15 @@
 
 import itertools
 import re
-from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pytest
 import yaml
 
 from botschool.errors import BotschoolError
 from botschool.rl import settings, tuning
 from botschool.rl.agent import Agent
-from botschool.rl.folder import Evaluations, RunFolder
+from botschool.rl.folder import RunFolder
 from botschool.rl.model import choose
 from botschool.rl.study import Log, ended, open_study
 from botschool.rl.training import train
@@ -39,27 +37,6 @@ def test_it_is_trained_with_its_own_parts(trained):
     assert float(agent.model.policy.gain.detach()[0]) != 1.0  # it has learned
     assert agent.model.policy.mlp_extractor.policy_net[0].out_features == 1
     assert trained.settings().policy == OWN
-
-
-def test_what_it_hands_on_is_a_hyperparameter(tmp_path):
-    run = train(
-        *("ppo", "CartPole-v1", tmp_path),
-        policy=OWN,
-        params=SMALL | {"net_arch": [3], "activation_fn": "relu"},
-        **TINY,
-    )
-    policy = Agent.load(run.best, policy=OWN).model.policy
-    assert policy.mlp_extractor.policy_net[0].out_features == 3
-
-
-def test_other_algorithms_take_theirs(tmp_path):
-    params = {"learning_starts": 10, "net_arch": [4], "batch_size": 8, "buffer_size": 100}
-    run = train(
-        "sac", "tiny_envs:Tiny-v0", tmp_path, policy="own_policies:Soft", params=params, **TINY
-    )
-    assert np.isfinite(run.evaluations().returns).all()
-    with pytest.raises(BotschoolError, match=r"Soft cannot be trained with PPO: derive"):
-        train("ppo", "tiny_envs:Tiny-v0", tmp_path, policy="own_policies:Soft", **TINY)
 
 
 def test_the_command_watches_it_when_it_is_named_again(trained, command, refused, tmp_path):
@@ -109,15 +86,6 @@ def test_classes_that_are_none(policy, says, tmp_path, refused):
     assert not list(tmp_path.iterdir())
 
 
-def test_a_module_that_breaks(tmp_path, refused, monkeypatch):
-    (tmp_path / "code").mkdir()
-    (tmp_path / "code" / "broken_policy.py").write_text("1 / 0\n")
-    monkeypatch.syspath_prepend(str(tmp_path / "code"))
-    flags = ("--algo", "ppo", "--env", "CartPole-v1", "-o", tmp_path)
-    code_of = ["broken_policy", "ZeroDivisionError: division by zero", "mend it"]
-    refused("rl", "train", *flags, "--policy", "broken_policy:A", says=code_of)
-
-
 def test_the_example_of_the_readme(tmp_path, command, monkeypatch):
     readme = Path(TESTS).parent / "README.md"
     if not readme.exists() or "my_policy.py" not in readme.read_text():
@@ -135,11 +103,6 @@ def test_the_example_of_the_readme(tmp_path, command, monkeypatch):
     assert result == 0 and "return" in out
     policy = Agent.load(RunFolder("results/rl/ppo/CartPole-v1_1").best, policy=own[-1]).model.policy
     assert policy.mlp_extractor.policy_net[0].in_features == 8
-
-
-def test_an_agent_of_a_usual_policy(tmp_path, refused):
-    run = train("ppo", "CartPole-v1", tmp_path, params=SMALL, **TINY)
-    refused("rl", "enjoy", run.path, "--policy", OWN, says="is mlp, not own_policies:Narrow: leave")
 
 
 # --- `botschool rl tune`: tries hyperparameters, goes on where it stopped, writes what is best.
@@ -198,48 +161,6 @@ def test_it_goes_on_as_if_it_had_not_been_stopped(tmp_path):
     left = study_of(parts, 4).get_trials()
     assert {trial.state for trial in left} == {states.COMPLETE, states.FAIL}
     assert parts.best.read_text() == whole.best.read_text()
-
-
-def test_a_trial_is_worth_the_mean_of_its_trainings(tmp_path, monkeypatch):
-    trained = []
-
-    def learn(settings, folder, report, stopping, hurrying):
-        trained.append(settings.seed)
-        value = float(settings.seed)
-        ends = Evaluations(np.array([12, 24]), np.full((2, 2), value), np.full((2, 2), 5))
-        return None, ends
-
-    monkeypatch.setattr(tuning, "learn", learn)
-    several = replace(plan_of(tmp_path, 2), seeds=3)
-    lines = []
-    assert tune(several, lines.append)
-    assert trained == [3, 4, 5] * 2 and lines[0].startswith("trial 0: 4.00 ")
-    with pytest.raises(BotschoolError, match="with seeds = 3, not 1"):
-        tune(plan_of(tmp_path, 3))
-
-
-def test_trials_without_hope_are_broken_off(tmp_path, monkeypatch):
-    monkeypatch.setattr(optuna.Trial, "should_prune", lambda self: self.number > 0)
-    plan, said = plan_of(tmp_path, 2), []
-    assert tune(plan, said.append)
-    assert "broken off" not in said[0] and ", broken off" in said[1]
-    assert yaml.safe_load(plan.best.read_text()) == {}  # the start is the best
-
-
-def test_a_training_that_breaks_down_is_no_good(tmp_path, monkeypatch):
-    learn, calls = tuning.learn, itertools.count()
-
-    def breaking(*arguments, **options):
-        if next(calls) == 1:
-            raise BotschoolError("The training broke down after 8 steps.")
-        return learn(*arguments, **options)
-
-    monkeypatch.setattr(tuning, "learn", breaking)
-    plan, said = plan_of(tmp_path, 3), []
-    assert tune(plan, said.append)
-    assert ", broken off" in said[1] and ", broken off" not in said[0] + said[2]
-    best = max((results(plan)[i] for i in (0, 2)), key=lambda each: each[1])[0]
-    assert (yaml.safe_load(plan.best.read_text()) or {}) == best
 
 
 def test_the_command_and_what_it_writes(tmp_path, command):

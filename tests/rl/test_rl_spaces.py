@@ -11,7 +11,6 @@ from botschool.errors import BotschoolError
 from botschool.problems.spaces import PlainObservations, performed, plain_actions
 from botschool.rl.environments import make
 
-torch = pytest.importorskip("torch")
 pytest.importorskip("stable_baselines3")
 
 pytestmark = pytest.mark.slow
@@ -143,22 +142,9 @@ def test_a_learner_gives_actions_of_the_space(name, tmp_path):
     assert player.returns == [8.0, 8.0] and len(Asserting.performed) > 48
 
 
-def test_every_choice_is_reached(tmp_path):
-    """Counted from the space's own start, as in botschool es."""
-    Asserting.performed.clear()
-    trained("Acts-multidiscrete-v0", tmp_path)
-    found = np.array(Asserting.performed)
-    assert set(found[:, 0]) == {-1, 0, 1} and set(found[:, 1]) == {4, 5}
-
-
 @pytest.mark.parametrize("name", OBSERVATIONS)
 def test_a_learner_reads_the_observations(name, tmp_path):
     assert trained(f"Sees-{name.replace(' ', '')}-v0", tmp_path).returns == [8.0, 8.0]
-
-
-def test_a_refusal_shows_the_actions_of_the_environment(tmp_path):
-    with pytest.raises(BotschoolError, match=r"actions are int32 numbers of shape \(2,\): use"):
-        trained("Acts-integers-v0", tmp_path, "dqn", learning_starts=10)
 
 
 def test_a_film_of_what_does_not_draw_is_refused(tmp_path):
@@ -166,12 +152,6 @@ def test_a_film_of_what_does_not_draw_is_refused(tmp_path):
     player = trained("Unpainted-v0", tmp_path)
     with pytest.raises(BotschoolError, match=r"draws no pictures .*--render none"):
         next(player.transitions(0))
-
-
-@pytest.mark.parametrize("name", ["unbounded", "half bounded"])
-def test_algorithms_that_scale_actions_need_limits(name, tmp_path):
-    with pytest.raises(BotschoolError, match=r"have none: use --algo ppo, or give .* limits\.$"):
-        trained(f"Acts-{name.replace(' ', '')}-v0", tmp_path, "sac", learning_starts=10)
 
 
 @pytest.mark.parametrize("space", [*OBSERVATIONS.values(), *ACTIONS.values()])
@@ -204,30 +184,6 @@ def test_broken_rules_are_one_sentence(fault, says):
     assert says in str(caught.value) and "mend the environment." in str(caught.value)
 
 
-def test_no_info_counts_as_an_empty_one():
-    env = make("Faulty-v0", fault="no info")
-    assert env.reset(seed=1)[1] == {} and env.step(env.action_space.sample())[4] == {}
-
-
-def test_a_reset_without_a_seed_is_told():
-    with pytest.raises(BotschoolError, match="reset must take seed and options"):
-        make("Unseeded-v0").reset(seed=1)
-
-
-@pytest.mark.parametrize("option", ["name", "wrapped", "wrappers"])
-def test_options_of_any_name_reach_the_constructor(option):
-    class Named(Asserting):
-        def __init__(self, render_mode=None, **given):
-            super().__init__(render_mode=render_mode)
-            self.given = given
-
-    gymnasium.register("Named-v0", Named)
-    try:
-        assert make("Named-v0", **{option: "hilly"}).unwrapped.given == {option: "hilly"}
-    finally:
-        del gymnasium.registry["Named-v0"]
-
-
 class Goals(Asserting):
     """Its episodes are longer than the steps before learning starts."""
 
@@ -242,9 +198,3 @@ class Goals(Asserting):
 
 
 gymnasium.register("Goals-v0", Goals)
-
-
-def test_hindsight_waits_for_the_first_episode(tmp_path):
-    """It raised an error when learning started within an episode."""
-    player = trained("Goals-v0", tmp_path, "her", learning_starts=4, batch_size=8, buffer_size=200)
-    assert len(player.returns) == 2

@@ -35,19 +35,6 @@ def test_links_hidden_and_skipped_files_are_not_copied(tmp_path, file):
         scratch.regular_files(linked)
 
 
-def test_copied_files_are_bounded(file, monkeypatch):
-    with open(file.parent / "large.bin", "wb") as large:
-        large.truncate(60 * 2**20)
-    with pytest.raises(Refused, match="50 MB"):
-        scratch.regular_files(file)
-    (file.parent / "large.bin").unlink()
-    monkeypatch.setattr(scratch, "MAX_COPIED_FILES", 3)
-    for number in range(5):
-        (file.parent / f"{number}.txt").touch()
-    with pytest.raises(Refused, match="3 files"):
-        scratch.regular_files(file)
-
-
 def test_what_is_read_is_a_copy(file):
     one = Scratch(file)
     (one.folder / "best.txt").write_text("1")
@@ -93,27 +80,6 @@ def test_pictures_are_few_and_small(file):
     one.remove()
 
 
-def test_folders_that_vanish_hide_nothing(file, monkeypatch):
-    """Of which the names are read, and which are renamed before they are looked into."""
-    one = Scratch(file)
-    monkeypatch.setattr(scratch, "MAX_WRITTEN", 2**20)
-    (one.root / "vanishing").mkdir()
-    (one.root / "full").mkdir()
-    (one.root / "full" / "file").write_bytes(bytes(2**21))
-    scandir = os.scandir
-
-    def vanish(path):
-        if str(path).endswith("vanishing"):
-            raise FileNotFoundError
-        return scandir(path)
-
-    monkeypatch.setattr(scratch.os, "scandir", vanish)
-    for _ in range(3):
-        assert one.trouble() == "it wrote more than 1 MB of files"
-    monkeypatch.undo()
-    one.remove()
-
-
 @pytest.fixture
 def in_memory(server, file):
     """A scratch folder in memory, with its server."""
@@ -149,12 +115,6 @@ def test_the_memory_is_of_limited_size_and_goes_with_the_folder(server, in_memor
     assert in_memory.copy("small").read_text() == "1"
     in_memory.remove()
     assert str(in_memory.root) not in mounts(server)
-
-
-def test_files_stay_for_the_next_child_of_a_server(server, in_memory):
-    Path(f"/proc/{server._process.pid}/root{in_memory.folder}/left").write_text("1")
-    in_memory.enter(server)
-    assert in_memory.copy("left").read_text() == "1"
 
 
 def test_folders_named_like_pictures_leave_no_descriptors_open(file):

@@ -124,98 +124,10 @@ def test_places(sandboxed):
     assert (told["error"], told["call"]) == ("Signature", "h(a)")
 
 
-def test_where_it_is(sandboxed):
-    one = sandboxed("def f():\n    while True:\n        g()\ndef g():\n    sum(range(10**4))\n")
-    with pytest.raises(TimeoutError):
-        one.ask("f", seconds=0.3)
-    places = one.child.where()
-    assert places[-1] == ("untrusted.py", 3) and set(places[:-1]) <= {("untrusted.py", 5)}
-    one.child.kill()
-    assert one.child.where() == []
-
-
-def test_where_of_one_that_does_not_tell(sandboxed):
-    text = "from signal import *\ndef f():\n    signal(SIGUSR1, SIG_IGN)\n    while True: pass\n"
-    one = sandboxed(text)
-    with pytest.raises(TimeoutError):
-        one.ask("f", seconds=0.3)
-    assert one.child.where() == []
-
-
-def test_twice(sandboxed):
-    one = sandboxed("n = 0\ndef f(x):\n    global n\n    n += 1\n    x.append(n)\n    return n\n")
-    request = {"name": "f", "arguments": [[7]], "options": {}, "twice": True}
-    assert one.child.ask(request, Allowance(5))["value"] == {
-        "answers": [1, 2], "arguments": [[7, 1]],
-    }  # fmt: skip
-
-
 # --- The time of answers: computing and sleeping are charged, waiting for a processor is not.
 
 
 BUSY = "def work(seconds):\n    import time\n    while time.process_time() < seconds: pass\n"
-
-
-@pytest.fixture
-def clock(monkeypatch):
-    """Processor time, delay and time that a process has used, to be set."""
-    used = {"processor": 0.0, "delayed": 0.0, "time": 100.0}
-    monkeypatch.setattr(usage, "processor_seconds", lambda pid: used["processor"])
-    monkeypatch.setattr(usage, "delayed_seconds", lambda pid: used["delayed"])
-    monkeypatch.setattr("time.monotonic", lambda: used["time"])
-    monkeypatch.setattr(Allowance, "PAUSE", float("inf"))  # time may jump
-    return used
-
-
-def test_a_process_that_waits_for_a_processor_is_charged_what_it_computes(clock):
-    allowance = Allowance(10)
-    with allowance.charged(1) as left:
-        clock.update(processor=4.0, delayed=30.0, time=134.0)
-        assert left() == 6
-    assert (allowance.processor, allowance.active, allowance.passed) == (4, 4, 34)
-    with allowance.charged(1) as left:
-        clock.update(processor=10.0, delayed=60.0, time=170.0)
-        assert left() == 0
-    assert not allowance.slept
-
-
-def test_a_process_that_sleeps_has_more_time_but_not_for_ever(clock):
-    allowance = Allowance(10)
-    with allowance.charged(1) as left:
-        clock.update(time=121.0)
-        assert left() == 1
-        clock.update(time=122.0)
-        assert left() == 0
-    assert allowance.slept
-
-
-def test_no_process_is_kept_waiting_for_ever(clock):
-    allowance = Allowance(10)
-    with allowance.charged(1) as left:
-        clock.update(delayed=159.0, time=259.0)
-        assert left() == 1
-
-
-def test_a_pause_of_the_machine_is_not_charged(clock, monkeypatch):
-    monkeypatch.setattr(Allowance, "PAUSE", 2.0)
-    allowance = Allowance(1)
-    with allowance.charged(1) as left:
-        clock.update(time=1000.0)  # nobody could ask what is left
-        assert left() == 1
-        assert (allowance.active, allowance.passed) == (2, 2)
-        for _ in range(30):
-            clock["time"] += 0.1
-            left()
-        assert left() <= 0  # but a child that sleeps while others are awake is
-    assert allowance.slept
-
-
-def test_where_nothing_is_known_the_time_that_passes_counts(clock, monkeypatch):
-    monkeypatch.setattr(usage, "processor_seconds", lambda pid: None)
-    allowance = Allowance(10)
-    with allowance.charged(1) as left:
-        clock.update(time=107.0)
-        assert left() == 3
 
 
 def test_an_endless_loop_and_an_endless_sleep(sandboxed):
