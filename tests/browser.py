@@ -7,7 +7,6 @@ import shlex
 import shutil
 import subprocess
 import time
-from base64 import b64decode
 from itertools import count
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome")
@@ -132,16 +131,3 @@ class Browser:
         options = {"key": key, "modifiers": modifiers}
         self.call("Input.dispatchKeyEvent", type="keyDown", text=text, **options)
         self.call("Input.dispatchKeyEvent", type="keyUp", **options)
-
-    def tap(self, selector, x=0.5, y=0.5):
-        """Scroll to an element and touch it, at a share of its width and height."""
-        element = f"document.querySelector({selector!r})"
-        self.run(f"{element}.scrollIntoView({{block: 'center', behavior: 'instant'}})")
-        box = self.run(f"{element}.getBoundingClientRect().toJSON()")
-        point = {"x": box["x"] + x * box["width"], "y": box["y"] + y * box["height"]}
-        self.call("Input.dispatchTouchEvent", type="touchStart", touchPoints=[point])
-        self.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
-
-    def screenshot(self):
-        """Return a picture of the page, PNG."""
-        return b64decode(self.call("Page.captureScreenshot")["data"])

@@ -28,9 +28,7 @@ def nothing_was_said():
     "name",
     [
         pytest.param("BipedalWalker-v3", marks=pytest.mark.long),
-        *("odd_envs:DrawsGlobally-v0", "odd_envs:DrawsAtImport-v0"),
-        *("odd_envs:DrawsWhenMade-v0", "odd_envs:SeedsOnce-v0", "odd_envs:GetsTired-v0"),
-        "odd_envs:GetsHarder-v0",
+        *("odd_envs:DrawsGlobally-v0", "odd_envs:SeedsOnce-v0", "odd_envs:GetsHarder-v0"),
     ],
 )
 def test_they_repeat(name, tmp_path, command, capfd):
@@ -51,7 +49,7 @@ def test_they_repeat(name, tmp_path, command, capfd):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("workers", [1, 2])
-@pytest.mark.parametrize("name", ["CountsForAll", "CountsInstances", "DrawsOnItsOwn", "Samples"])
+@pytest.mark.parametrize("name", ["CountsForAll", "DrawsOnItsOwn"])
 def test_or_it_is_said_once(name, workers, tmp_path, capfd):
     own = experiment(tmp_path, f"odd_envs:{name}-v0", maxmsteps=0.0005)
     assert run_seeds(own, tmp_path / "run", seeds=(1, 2), workers=workers)
@@ -60,9 +58,8 @@ def test_or_it_is_said_once(name, workers, tmp_path, capfd):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["OrdersTexts", "HashesTexts", "KnowsProcess"])
-def test_what_differs_between_processes_is_said(name, tmp_path, capfd):
-    own = experiment(tmp_path, f"odd_envs:{name}-v0", maxmsteps=0.0005)
+def test_what_differs_between_processes_is_said(tmp_path, capfd):
+    own = experiment(tmp_path, "odd_envs:HashesTexts-v0", maxmsteps=0.0005)
     assert run_seeds(own, tmp_path / "two", workers=2)
     assert capfd.readouterr().err.count(NOTE) == 1
     words = ("es", "-f", tmp_path / "own.ini", "-s", 1, "-o", tmp_path / "parts")
@@ -92,12 +89,9 @@ def test_nobody_else_s_draws_change():
     ("name", "says"),
     [
         ("Alone", ["reset", "(observation, info)"]),
-        ("Number", ["reset", "(observation, info)"]),
-        ("Three", ["reset", "(observation, info)"]),
         ("Pair", ["reset", ""]),
         ("Seedless", ["reset", "def reset(self, seed=None, options=None)"]),
         ("Optionless", ["reset", "def reset(self, seed=None, options=None)"]),
-        ("Outside", ["reset", ""]),
         ("Four", ["step 1", "(observation, reward, terminated, truncated, info)"]),
         ("Ends", ["step 1", "mend the environment"]),
         ("Quits", ["cannot be made: no licence"]),
@@ -111,8 +105,8 @@ def test_a_broken_rule_gets_a_sentence(name, says, around, refused, tmp_path):
     assert name != "Outside" or "stepsize" not in errors  # no action had been given
 
 
-@pytest.mark.parametrize("algo", ["OpenAI-ES", "ARS", "SSS", "CMA-ES"])
-@pytest.mark.parametrize("reward", ["1e200", "3e307", "-1e101", "1e99"])
+@pytest.mark.parametrize("algo", ["OpenAI-ES", "SSS", "CMA-ES"])
+@pytest.mark.parametrize("reward", ["3e307", "-1e101", "1e99"])
 def test_rewards_whose_sums_overflow(algo, reward, command, tmp_path):
     path = write_experiment(tmp_path, "odd_envs:Pays-v0", algo, maxmsteps=0.0005)
     path.write_text(path.read_text().replace("algo =", f"options = reward={reward}\nalgo ="))
