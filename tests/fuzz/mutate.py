@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import io
 import random
 import re
+import zipfile
 
 WORDS = (
     b"", b"nan", b"inf", b"-1", b"0", b"1e309", b"99999999999999999999", b"0x10", b"true", b"null",
@@ -12,6 +14,25 @@ WORDS = (
 )  # fmt: skip
 NUMBER = re.compile(rb"-?\d+(?:\.\d+)?(?:e-?\d+)?")
 LENGTHS = (1, 1, 2, 4, 8, 64, 1000)
+
+
+def damaged_file(valid: list[bytes], chance: random.Random) -> bytes:
+    """Return a damaged file; most of those that are archives have a damaged member instead."""
+    data = chance.choice(valid)
+    if not zipfile.is_zipfile(io.BytesIO(data)) or chance.random() < 0.3:
+        return damaged(valid, chance)
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        members = {name: archive.read(name) for name in archive.namelist()}
+    name = chance.choice(list(members))
+    others = [members[name], *(m for n, m in members.items() if n.endswith(name[-4:]))]
+    members[name] = damaged(others, chance)
+    if chance.random() < 0.1:
+        del members[chance.choice(list(members))]
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w") as archive:
+        for name, content in members.items():
+            archive.writestr(zipfile.ZipInfo(name), content)
+    return out.getvalue()
 
 
 def damaged(valid: list[bytes], chance: random.Random) -> bytes:

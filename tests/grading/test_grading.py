@@ -66,6 +66,7 @@ def student(tmp_path):
 # --- points
 
 
+@pytest.mark.slow
 def test_solution_and_skeleton(graded, course, tmp_path):
     assert graded(SOLUTION).points == 100
     untouched = grade(load_exercise(3, course), course / "exercises" / FOLDER / FILE)
@@ -75,6 +76,7 @@ def test_solution_and_skeleton(graded, course, tmp_path):
     ]
 
 
+@pytest.mark.slow
 def test_partial_credit_and_where_it_went_wrong(graded):
     result = graded("def double(x):\n    assert x.ndim == 1\n    return 2 * x\n")
     assert [task.points for task in result.tasks] == [40, 0]
@@ -99,6 +101,7 @@ HOSTILE = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", HOSTILE)
 def test_hostile(graded, kind):
     text, sentence = HOSTILE[kind]
@@ -109,12 +112,14 @@ def test_hostile(graded, kind):
     assert result.tasks[1].points == (40 if add else 0)
 
 
+@pytest.mark.slow
 def test_time_is_bounded(graded):
     result = graded("def double(x):\n    while True: pass\ndef total(x): return float(sum(x))\n")
     assert "did not return within the task's 2 seconds" in result.tasks[0].message
     assert result.tasks[1].points == 40
 
 
+@pytest.mark.slow
 def test_nothing_is_left(graded, tmp_path, monkeypatch):
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "temporary"))
     (tmp_path / "temporary").mkdir()
@@ -130,6 +135,7 @@ def test_nothing_is_left(graded, tmp_path, monkeypatch):
 # --- what a submission can reach
 
 
+@pytest.mark.slow
 def test_answers_are_out_of_reach(student, course):
     one = student("def read(path):\n    return open(path).read()\n")
     one.call("read", os.devnull)
@@ -295,6 +301,7 @@ def shown(action, width=80):
     return console.file.getvalue()
 
 
+@pytest.mark.slow
 def test_report_fits_and_says_what_is_next(course):
     result = grade(load_exercise(3, course), course / "exercises" / FOLDER / FILE)
 
@@ -310,6 +317,7 @@ def test_report_fits_and_says_what_is_next(course):
     assert len(text.splitlines()) < 10
 
 
+@pytest.mark.slow
 def test_students_text_is_no_markup(graded):
     result = graded(
         "print('[bold]\\x1b[2J[/nothing]')\ndef double(x): raise ValueError('[/]\\x07')\n"
@@ -385,6 +393,7 @@ PARTS = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("parts", [PARTS[:3], PARTS[:2] + PARTS[3:], PARTS])
 def test_a_script_and_a_notebook_that_fail_in_part_are_judged_alike(course, tmp_path, parts):
     exercise = load_exercise(3, course)
@@ -413,6 +422,7 @@ def test_a_script_and_a_notebook_that_fail_in_part_are_judged_alike(course, tmp_
         )
 
 
+@pytest.mark.slow
 def test_lines_of_a_file_that_is_loaded_in_part(graded):
     result = graded(
         "raise ValueError\n# %%\ndef double(x):\n    return [][1]\n# %%\n"
@@ -424,6 +434,7 @@ def test_lines_of_a_file_that_is_loaded_in_part(graded):
     assert result.tasks[1].points == 40
 
 
+@pytest.mark.slow
 def test_a_fault_of_the_grader_is_no_zero(course, tmp_path):
     exercise = load_exercise(3, course)
     task, file = exercise.tasks[0], submit(tmp_path / "one", SOLUTION)
@@ -461,6 +472,7 @@ def test_showing_a_value_is_bounded_in_work():
     assert show({"a": [1, (2.5, "b")]}) == "{'a': [1, (2.5, 'b')]}"
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs timers")
 def test_checks_run_under_a_limit(course, tmp_path, monkeypatch):
     monkeypatch.setattr(judging, "CHECK_SECONDS", 0.3)
@@ -481,6 +493,7 @@ def test_checks_run_under_a_limit(course, tmp_path, monkeypatch):
     assert signal.getitimer(signal.ITIMER_PROF) == (0.0, 0.0)
 
 
+@pytest.mark.slow
 def test_the_results_asked_for_longest_ago_are_forgotten(course, tmp_path, monkeypatch):
     monkeypatch.setattr(batch, "MAX_KEPT", 2)
     grades = batch.Grades(course)

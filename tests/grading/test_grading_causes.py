@@ -48,6 +48,7 @@ def first_line(messages, body, exercise=None):
     return message.splitlines()[0]
 
 
+@pytest.mark.slow
 def test_a_mistake_that_shows_in_squares_only_is_named(messages):
     body = SQUARES_STAY.format("d = table if square else table.transpose()\n    ")
     body += 'return {"table": d, "largest": table.max()}'
@@ -61,6 +62,7 @@ def test_no_cause_is_said_without_words(messages):
     assert first_line(messages, body, declared(many=6, columns=())).startswith("turned(")
 
 
+@pytest.mark.slow
 def test_what_stays_is_told_before_what_numbers_suggest(messages):
     """From the second call on, one is added."""
     body = "made.append(1)\n    "

@@ -75,6 +75,7 @@ def test_a_wrong_number_is_shown():
     assert "A number is half of what it should be: 0.85 is used." in dict(slipped("return 1.7"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("factor", "said"), [(1.0, False), (2.5, True)])
 def test_a_limit_near_the_right_one_is_no_slip(message, factor, said):
     """Yes and no are the same for many limits; other answers are those of a single number."""

@@ -52,6 +52,7 @@ def course(tmp_path, monkeypatch):
     return root
 
 
+@pytest.mark.slow
 def test_grade(course):
     code, out, errors = call("grade", "3")
     assert (code, errors) == (1, "") and "0 of 100 points" in out and "Next: task 3.1" in out
@@ -102,6 +103,7 @@ def test_outside_a_course(tmp_path):
     assert code == 2 and "There is no course here" in errors
 
 
+@pytest.mark.slow
 def test_hint(course):
     assert "Hint 1 of 2 for task 3.1" in call("hint", "3.1")[1]
     out = call("hint", "3.1")[1]
@@ -119,6 +121,7 @@ def rows_of_progress(*arguments):
 HALF = SOLUTION.replace("float(np.sum", "str(np.sum")
 
 
+@pytest.mark.slow
 def test_progress_grades_when_asked(course):
     (course / "exercises" / FOLDER / FILE).write_text(HALF)
     rows, out = rows_of_progress()
@@ -129,6 +132,7 @@ def test_progress_grades_when_asked(course):
     assert rows_of_progress() == (rows, out)
 
 
+@pytest.mark.slow
 def test_progress_shows_what_was_graded(course, monkeypatch):
     """Without grading: the points of the last time, and whether the file is still the same."""
     file = course / "exercises" / FOLDER / FILE
@@ -177,6 +181,7 @@ def test_points_that_no_grading_has_stored_do_not_count(course, points):
         assert bool(recall(course, exercise)[1]) == known
 
 
+@pytest.mark.slow
 def test_results_of_many_commands_at_once_are_all_kept(course):
     """Read, change, write: without a lock, two thirds of them were lost."""
     (course / ".botschool").mkdir()
@@ -201,6 +206,7 @@ def test_commands_at_once_agree_on_one_secret(tmp_path, monkeypatch):
     assert len(found) == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("damage", [b"5", b"null", b"{}", b"[" * 100_000, b"", b"\xff", "half"])
 def test_a_damaged_cache_is_graded_again(course, tmp_path, damage):
     job = batch.Job(3, submit(tmp_path / "ada", SOLUTION), ("3.2",))
@@ -214,6 +220,7 @@ def test_a_damaged_cache_is_graded_again(course, tmp_path, damage):
     assert batch.Grades(course).of([job], 1)[job] == right and stored.read_bytes() == content
 
 
+@pytest.mark.slow
 def test_progress_without_a_file_or_with_a_damaged_store(course):
     file = course / "exercises" / FOLDER / FILE
     file.write_text(SOLUTION)
@@ -227,6 +234,7 @@ def test_progress_without_a_file_or_with_a_damaged_store(course):
     assert "botschool start 3" in rows_of_progress("--grade")[0]["3"]
 
 
+@pytest.mark.slow
 def test_other_submissions_are_not_remembered(course):
     call("grade", "3", "--submission", "solutions", cwd=course)
     assert " 0 " in rows_of_progress()[0]["3"]
@@ -248,6 +256,7 @@ def test_results_are_kept_by_content(course, tmp_path, monkeypatch):
     assert "took longer" in batch.Grades(course).of([job], 1)[job]["problem"]
 
 
+@pytest.mark.slow
 def test_watch_grades_after_each_save(course):
     file = course / "exercises" / FOLDER / FILE
     exercise = load_exercise(3, course)
@@ -276,6 +285,7 @@ def test_watch_grades_after_each_save(course):
     assert seen == [0, 60]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(signal, "SIGINT"), reason="needs signals")
 def test_watch_ends_with_ctrl_c(course):
     process = start("watch", "3.1", env=environment_of_command() | {"PYTHONUNBUFFERED": "1"})
@@ -326,6 +336,7 @@ def test_release(course, tmp_path):
         release(tmp_path / "copy", tmp_path / "again")
 
 
+@pytest.mark.slow
 def test_released_graders_work_and_cannot_be_read(course, tmp_path, monkeypatch):
     release(course, tmp_path / "copy")
     grader = tmp_path / "copy" / "exercises" / FOLDER / "test_tiny.py"
@@ -379,6 +390,7 @@ def test_a_long_run_says_that_it_goes_on(course, monkeypatch, capfd):
     assert "(tiny.py runs, " in errors and out.split()[-1] == "1"
 
 
+@pytest.mark.slow
 def test_a_finished_file_is_run_in_results(course):
     made = course.resolve() / "results" / "ex03" / "picture.txt"
     assert show(3, course / "solutions" / FOLDER / FILE, course) == [made]
@@ -397,6 +409,7 @@ def test_a_finished_file_is_run_in_results(course):
     assert code == 2 and "There is no tiny.py" in errors
 
 
+@pytest.mark.slow
 def test_watch_and_show_find_what_grade_finds(course, tmp_path):
     """A renamed file, and a notebook in a zip file."""
     place = tmp_path / "handed-in"
@@ -443,6 +456,7 @@ if __name__ == "__main__":
 )
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="displays of Linux")
 def test_show_opens_what_was_made(course, tmp_path):
     (course / "exercises" / FOLDER / FILE).write_text(DRAWING)
@@ -466,6 +480,7 @@ def test_show_opens_what_was_made(course, tmp_path):
     assert "<iframe" in text and "all.html" not in text and "csv" not in text
 
 
+@pytest.mark.slow
 def test_answers_after_full_marks(course, tmp_path, monkeypatch):
     copy = tmp_path / "copy"
     release(course, copy, with_answers=False)
@@ -544,6 +559,7 @@ def test_start_installs_what_is_missing_in_the_courses_own_environment(course, m
         starting.install(("box2d",), course)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("released", [False, True])
 def test_start_and_reset(course, tmp_path, monkeypatch, released):
     root = course
@@ -613,6 +629,7 @@ class Page(HTMLParser):
         self.sources += [value for name, value in attributes if name in ("src", "href")]
 
 
+@pytest.mark.slow
 def test_grade_all(course, class_, tmp_path):
     output = tmp_path / "out"
     code, out, errors = call("grade-all", class_, "-e", "3", "-o", output, "-w", "2")
@@ -636,6 +653,7 @@ def test_grade_all(course, class_, tmp_path):
     assert len(list((output / "feedback").iterdir())) == 10
 
 
+@pytest.mark.slow
 def test_grade_all_overwrites_only_its_own(course, class_, tmp_path):
     output = tmp_path / "out"
     grade_all(class_, output, {3: ()}, course, 2, False)
@@ -654,6 +672,7 @@ def test_grade_all_overwrites_only_its_own(course, class_, tmp_path):
     assert (output / "feedback" / "ada.html").read_text() == "my letter to Ada"
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="needs its signals")
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGKILL])
 def test_grade_all_leaves_nothing_running(course, tmp_path, number, request):
@@ -686,6 +705,7 @@ def test_grade_all_leaves_nothing_running(course, tmp_path, number, request):
         assert list(temporary.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_grade_all_makes_a_secret_and_keeps_it(course, tmp_path, monkeypatch):
     monkeypatch.delenv("BOTSCHOOL_GRADING_SEED", raising=False)
     show_seed = "def double(x): raise ValueError(float(x.ravel()[0]))\ndef total(x): return 0\n"
@@ -753,6 +773,7 @@ def without(*numbers):
     return [*code, (0x06, 0, 0, 0x7FFF0000)]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(
     platform.machine() != "x86_64" or sys.platform != "linux", reason="Linux, x86-64"
 )

@@ -15,6 +15,8 @@ from botschool.grading.declare.diagnosis.comparison import Comparison
 from botschool.grading.run.student import Student
 from tiny_course import submit
 
+pytestmark = pytest.mark.slow
+
 seeds = st.integers(0, 2**32 - 1)
 quickly = settings(max_examples=60, deadline=None, derandomize=True)
 

@@ -32,6 +32,8 @@ from botschool.sandbox.inside import read_inside
 from running import call, environment_of_command, one_sentence, start
 from tiny_course import FILE, FOLDER, SOLUTION, make_course, submit
 
+pytestmark = pytest.mark.slow
+
 SECRET = "precious = 'of somebody else'"
 AS_ROOT = pytest.mark.skipif(os.geteuid() != 0, reason="only root gives files to others")
 

@@ -16,6 +16,8 @@ from exports import notebook
 from running import call, environment_of_command
 from tiny_course import FILE, FOLDER, SOLUTION, make_course, submit
 
+pytestmark = pytest.mark.slow
+
 TYPES = "\n\ndef later(seeds: list[int]) -> dict:\n    return {}\n"
 
 

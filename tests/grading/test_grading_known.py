@@ -98,6 +98,7 @@ def messages(messages):
     return lambda text, exercise=None: messages(text, exercise or declared())
 
 
+@pytest.mark.slow
 def test_a_known_mistake_leads_the_message(messages):
     first, second = messages(RIGHT + BY_N)
     lines = first.splitlines()
@@ -114,6 +115,7 @@ def test_so_does_one_that_a_driver_meets(messages):
     assert first == "" and second.startswith(line_about("Counts the steps from 1."))
 
 
+@pytest.mark.slow
 def test_one_input_is_not_enough(messages):
     """Of the first input by_n's value, and a right one of the second: two mistakes, or chance."""
     once = "def spread(x): return float(np.std(x, ddof=1 if len(x) > 3 else 0))\n"
@@ -126,6 +128,7 @@ def test_one_input_is_not_enough(messages):
     assert TOLD not in messages(RIGHT + BY_N, same)[0]
 
 
+@pytest.mark.slow
 def test_where_an_answer_raises_the_mistake_must_be_wrong(messages):
     """Two wrong answers prove it; the third call raises, and by_n is wrong there, too."""
     inputs = ((1.0, 2.0, 4.0), (3.0, 9.0, 1.0, 2.0), (1.0, 2.0, 3.0, 4.0, 9.0))
@@ -138,6 +141,7 @@ def test_where_an_answer_raises_the_mistake_must_be_wrong(messages):
     assert TOLD not in messages(text, declared(inputs[1:]))[0], "a single answer proves nothing"
 
 
+@pytest.mark.slow
 def test_a_mistake_that_raises_the_same_is_proof(messages):
     raising = (
         MISTAKES
@@ -217,6 +221,7 @@ def test_right_answers_start_no_trial(messages, monkeypatch):
         messages(RIGHT + BY_N)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("when", "told"), [("True", True), ("len(values) > 3", False)])
 def test_time_is_limited(messages, monkeypatch, when, told):
     """A mistake that never ends costs little; after a first answer that fits, all the time."""
@@ -255,6 +260,7 @@ def test_no_time_limit_cuts_the_import_of_a_package_short(messages, monkeypatch)
     assert timed and not any("import torch" in text for text in timed)
 
 
+@pytest.mark.slow
 def test_a_mistake_that_fits_no_more_is_left_out(messages):
     text = MISTAKES.replace("-     spread_marks", "-     another_marks", 1)
     with pytest.raises(ValueError, match="must hold these lines exactly once"):
@@ -278,6 +284,7 @@ def spread(x):
 """
 
 
+@pytest.mark.slow
 def test_a_call_to_try_shows_what_it_answers_in_a_new_process(messages, monkeypatch):
     """The name of a folder that others were in was told, though a new process has the right one."""
     exercise = Exercise(3, "Three", FILE)
@@ -309,6 +316,7 @@ def random():
 """
 
 
+@pytest.mark.slow
 def test_a_random_answer_is_not_called_kept(messages, monkeypatch):
     """It was right in a new process, but wrong in another way each time."""
     monkeypatch.setattr(replay, "variations", lambda *_: iter(()))
@@ -363,6 +371,7 @@ def test_an_array_that_cuts_fractions_fits_only_another_one():
     assert fits(np.array([1, 2]), np.array([1.0, 2.0]), np.array([3.0, 4.0]))
 
 
+@pytest.mark.slow
 @given(answers, answers)
 def test_any_two_answers_can_be_told_apart(got, right):
     """Rows of dicts were taken for numbers, and the whole submission was not graded."""
@@ -406,6 +415,7 @@ def test_a_call_that_is_too_long_is_made_smaller(messages):
     assert told.count("expected") == 1
 
 
+@pytest.mark.slow
 def test_a_cause_is_guessed_from_two_calls(messages, monkeypatch):
     monkeypatch.setattr(replay, "variations", lambda *_: iter(()))
     text = RIGHT + "def spread(x): return -float(np.std(x, ddof=1))\n"

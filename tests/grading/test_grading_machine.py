@@ -14,6 +14,8 @@ from botschool.grading.run.confined import MachineFault, fork_server
 from botschool.sandbox import usage
 from tiny_course import SOLUTION, make_course, submit
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def course(tmp_path, monkeypatch):

@@ -56,6 +56,7 @@ def said(graded, text, check, **options):
 # --- the file
 
 
+@pytest.mark.slow
 def test_no_python_is_said_once_with_line_and_caret(graded):
     result = graded("import numpy as np\n\n\ndef double(x)\n    return 2 * x\n")
     assert result.banner == (
@@ -97,6 +98,7 @@ BROKEN = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cells", [False, True])
 @pytest.mark.parametrize(("right", "wrong", "points", "said"), BROKEN.values(), ids=BROKEN)
 def test_a_syntax_error_costs_the_function_where_it_stands(
@@ -190,6 +192,7 @@ def test_exceptions_in_a_file_beside_it(course, server, tmp_path):
     assert "\n  helper.py:2: return x / []" in result.tasks[0].message
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "body", ["while True: pass", "time.sleep(99)", "np.ones(9**8).sum() + g(x)"]
 )
@@ -357,6 +360,7 @@ def test_a_right_answer_may_not_change_what_it_is_given(graded):
     )
 
 
+@pytest.mark.slow
 def test_what_two_calls_tell(graded):
     random = "import random\ndef double(x): return x + random.random()\n"
     assert "gives another answer" in graded(random).tasks[0].message

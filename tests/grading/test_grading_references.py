@@ -94,6 +94,7 @@ BROKEN = "def smaller(x): return x / 3\n"
 SUMS, LAST = "def sums(x): return smaller(x) + 1\n", "def last(x): return sums(x) + 1\n"
 
 
+@pytest.mark.slow
 def test_one_mistake_costs_once(graded):
     result = graded(BROKEN + SUMS + LAST)
     assert [task.points for task in result.tasks] == [0, 30, 30]
@@ -120,6 +121,7 @@ def test_a_mistake_of_its_own_is_said(graded):
     assert sentence == "Then sums(0) is wrong."
 
 
+@pytest.mark.slow
 def test_what_is_not_done(graded):
     undone = "def {}(x): raise NotImplementedError('task {}: do it')\n"
     first, second = undone.format("smaller", "3.1"), undone.format("sums", "3.2")

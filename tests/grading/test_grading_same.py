@@ -16,6 +16,8 @@ from botschool.grading.commands import explain_command
 from botschool.grading.judge.submission import grade
 from botschool.grading.run.confined import fork_server
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 SOLUTION = '''"""A solution."""
 import json

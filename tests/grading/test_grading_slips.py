@@ -73,6 +73,7 @@ def test_a_slip_quotes_only_what_the_text_says():
         compile(each.text, "a slip", "exec")
 
 
+@pytest.mark.slow
 def test_a_slip_that_never_ends_stops_nothing(messages):
     """Without its step this loop never ends; the slip after it is found all the same."""
     ours = BOUNDS.replace(
@@ -85,12 +86,14 @@ def test_a_slip_that_never_ends_stops_nothing(messages):
     assert "should be added to it" in told.splitlines()[0]
 
 
+@pytest.mark.slow
 def test_other_answers_are_no_slip(messages):
     for end in ("{'kept': [], 'many': 3, 'below': 0.25}", "{}"):
         text = f"def bounds(values, low, high):\n    return {end}\n"
         assert replay.VARIED not in messages(text, bounded())[0]
 
 
+@pytest.mark.slow
 def test_a_slip_in_a_right_solution_of_another_style_is_named(messages):
     """The slip changes a part that our own solution does not have."""
     style = (
@@ -122,6 +125,7 @@ def long(values, stopped, limit):
 '''
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("asks", [False, True])
 def test_a_condition_that_is_there_is_not_said_to_be_left_out(messages, asks):
     """Who asks for the limit, but sets it to another number before, has not left it out."""

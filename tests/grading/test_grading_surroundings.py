@@ -3,6 +3,8 @@
 from functools import partial, wraps
 from types import SimpleNamespace
 
+import pytest
+
 from botschool.grading import Exercise, expect
 from botschool.grading.judge.submission import grade
 from botschool.grading.run.replaced import replaced
@@ -64,6 +66,7 @@ def test_what_is_no_plain_function_is_replaced_by_name():
         assert module.function is function
 
 
+@pytest.mark.slow
 def test_the_course_is_found_while_a_file_is_loaded(messages):
     """A path of the course may stand at the top of a submission; the graders stay closed."""
     exercise = Exercise(3, "Three", FILE)
@@ -89,6 +92,7 @@ def sizes():
     assert messages(text, exercise) == [""]
 
 
+@pytest.mark.slow
 def test_what_the_server_has_imported_is_refused(tmp_path):
     """Also a module that another one needs."""
     exercise = Exercise(3, "Halves", FILE, imports=("statistics",))

@@ -47,6 +47,7 @@ def watched(module, seeds, side=1, most=100):
     return answer, seen
 
 
+@pytest.mark.slow
 def test_a_training_is_recorded():
     answer, seen = watched(student(), [4, 5])
     assert (seen.returns, seen.seeds, seen.actions) == ([3.0, 3.0], [4, 5], [1.0] * 6)
@@ -68,6 +69,7 @@ def test_signs_and_sides_are_changed_within_the_block_alone(side):
         assert np.allclose(module.train([4])["seen"], usual)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("steps", [0, 400])
 def test_a_training_that_stands_still_is_ended(steps, monkeypatch):
     monkeypatch.setattr(pulse, "LOOK", 0.2)

@@ -150,6 +150,7 @@ ODD = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("odd", ODD.values(), ids=ODD)
 def test_no_answer_stops_the_drawing(odd):
     for kind in KINDS:
