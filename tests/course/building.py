@@ -1,6 +1,6 @@
 """Submissions made of a solution or a skeleton and something wrong, different or hostile.
 
-cases/exNN.txt holds the wrong answers to an exercise, and right ones in other styles;
+solutions/exNN_name/cases.txt holds wrong answers to an exercise, and right ones in other styles;
 botschool/grading/declare/mistakes.py describes how a case is written. The files of hostile/ have
 sections, too: a name, a line that says what is hostile, and code.
 """

@@ -5,7 +5,7 @@ import contextlib
 import pytest
 
 from botschool.grading.judge import submission
-from botschool.grading.judge.judging import TaskResult
+from botschool.grading.judge.points import TaskResult
 from botschool.grading.run.confined import fork_server
 from botschool.grading.run.ours import ours_of
 

@@ -2,7 +2,7 @@
 
 `python tests/course/prove.py 8 [NAME ...]`, while a grader is being written. A line for each case:
 ok or BAD (it loses other tasks than its header says), then what is told: "this" (its own sentence),
-"CASE" (another case's), "slip" (an automatic one) or "-"; words of the first message; seconds.
+"CASE" (another case's) or "-"; words of the first message; seconds.
 `--new FILE` grades the cases of a file that the exercise does not know yet: those without a name
 are worth keeping. A known mistake is graded in the tasks that it can reach.
 """
@@ -16,7 +16,7 @@ import time
 from pathlib import Path
 
 import building
-from botschool.grading.judge.known import TOLD, VARIED, line_about
+from botschool.grading.judge.sentence import TOLD, line_about
 from botschool.grading.judge.submission import grade
 from botschool.grading.run.confined import fork_server
 
@@ -27,9 +27,7 @@ def told(result, case) -> str:
     own = line_about(case.what)
     if own in messages:
         return "this"
-    if any(line.startswith(TOLD) for line in messages):
-        return "CASE"
-    return "slip" if any(VARIED in line for line in messages) else "-"
+    return "CASE" if any(line.startswith(TOLD) for line in messages) else "-"
 
 
 def main() -> None:

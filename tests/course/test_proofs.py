@@ -13,7 +13,7 @@ from botschool.grading.classes.batch import Grades, Job
 from botschool.grading.copies.release import release, released_files
 from botschool.grading.copies.skeleton import find_leaks, pairs
 from botschool.grading.declare.mistakes import THIS
-from botschool.grading.judge.known import TOLD, line_about
+from botschool.grading.judge.sentence import TOLD, line_about
 from botschool.grading.report.hints import read_hints
 
 MUTANTS = building.wrong()

@@ -1,4 +1,4 @@
-"""Prove that each automatic slip of a solution (judge/variations.py) loses points of its task.
+"""Prove that each slip in a solution (slips.py) loses points of its task.
 
 equal.txt names the slips that change no answer. `pytest -m course -k ex08` tries all slips of
 an exercise, and `make test` a sample. Tasks that may take long are left out.
@@ -13,15 +13,15 @@ import pytest
 
 import building
 from botschool.grading.declare.exercise import missing_packages
-from botschool.grading.judge.variations import variations
 from direct import SECONDS, DirectOurs, problem
+from slips import slips
 
 SAMPLE = 6
 """Slips of an exercise in the sample."""
 
 
-def slips(number):
-    """(task, slip, processor seconds to try it) of all tasks that declare inputs."""
+def tries(number):
+    """(task, label, text, processor seconds to try it) of all slips in quick tasks."""
     loaded = building.exercise(number)
     if missing_packages(loaded.extras):
         return []
@@ -35,7 +35,7 @@ def slips(number):
             began = time.process_time()
             assert not problem(task, solution, 60)  # else each slip would seem caught
             seconds = SECONDS + 2 * (time.process_time() - began)
-            found += [(task, slip, seconds) for slip in variations(solution, task.id)]
+            found += [(task, *slip, seconds) for slip in slips(solution, task.id)]
     return found
 
 
@@ -46,14 +46,10 @@ def equal(number):
 
 
 def missed(number, chosen):
-    """Lines for the slips that lose no points."""
+    """The labels of slips that lose no points."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        return {
-            f"{task.id}: {slip.what}"
-            for task, slip, seconds in chosen
-            if not problem(task, slip.text, seconds)
-        }
+        return {label for task, label, text, seconds in chosen if not problem(task, text, seconds)}
 
 
 @pytest.fixture(autouse=True)
@@ -63,19 +59,19 @@ def elsewhere(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
 
 
-def order(tried):
-    return hashlib.sha256(tried[1].text.encode()).digest()
+def order(slip):
+    return hashlib.sha256(slip[2].encode()).digest()
 
 
 @pytest.mark.parametrize("number", building.GRADED, ids="ex{:02d}".format)
 def test_some_slips_lose_points(number):
-    chosen = sorted(slips(number), key=order)[:SAMPLE]
+    chosen = sorted(tries(number), key=order)[:SAMPLE]
     assert not missed(number, chosen) - equal(number)
 
 
 @pytest.mark.course
 @pytest.mark.parametrize("number", building.GRADED, ids="ex{:02d}".format)
 def test_every_slip_loses_points(number):
-    found = missed(number, slips(number))
+    found = missed(number, tries(number))
     assert not found - equal(number), "\n".join(sorted(found - equal(number)))
     assert found == equal(number), "these are caught: take them out of the file"

@@ -7,7 +7,7 @@ import pytest
 
 import building
 from botschool.grading.declare.state import VARIABLE
-from botschool.grading.judge.judging import grade_task
+from botschool.grading.judge.points import grade_task
 from botschool.grading.run.confined import fork_server
 from botschool.grading.run.ours import ours_of
 

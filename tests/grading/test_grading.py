@@ -20,8 +20,8 @@ from botschool.grading.copies.skeleton import skeleton, write_skeletons
 from botschool.grading.declare import exercise as exercises
 from botschool.grading.declare.checks import NotDone, Wrong, expect_array, plain, show
 from botschool.grading.declare.exercise import load_exercise
-from botschool.grading.judge import judging
-from botschool.grading.judge.judging import GraderFault, grade_task
+from botschool.grading.judge import points as judging
+from botschool.grading.judge.points import GraderFault, grade_task
 from botschool.grading.judge.submission import Submission, grade
 from botschool.grading.report.hints import next_hints, read_hints
 from botschool.grading.report.screen import Screen, notice

@@ -17,8 +17,7 @@ from botschool.grading.declare.exercise import Exercise as Declared
 from botschool.grading.declare.exercise import load_exercise
 from botschool.grading.declare.trust import trust
 from botschool.grading.declare.values import apart, kind, pasted, show
-from botschool.grading.judge.known import VARIED
-from botschool.grading.judge.looking import same
+from botschool.grading.judge.repeated import same
 from botschool.grading.judge.submission import EVERYTHING, SYNTAX, grade
 from tiny_course import FILE, SOLUTION, make_course, submit
 
@@ -345,7 +344,7 @@ def test_equal_neighbours_of_many_are_pasted_in_short():
 def test_the_cause_stands_above_the_call(graded):
     message = graded("def double(x): return -2 * x\n").tasks[0].message
     cause, call = message.splitlines()
-    assert cause.startswith(f"{VARIED} The sign is reversed")
+    assert cause == "Only the sign is wrong: it is reversed."
     assert call.startswith("double(")
 
 
@@ -358,18 +357,6 @@ def test_a_right_answer_may_not_change_what_it_is_given(graded):
     assert (
         not graded("def double(x):\n    x = x.copy()\n    x *= 2\n    return x\n").tasks[0].message
     )
-
-
-@pytest.mark.slow
-def test_what_two_calls_tell(graded):
-    random = "import random\ndef double(x): return x + random.random()\n"
-    assert "gives another answer" in graded(random).tasks[0].message
-    kept = "def double(x):\n    x += 1\n    return x * x\n"
-    message = graded(kept).tasks[0].message
-    assert "It changes its argument number 1 in place" in message
-    assert "another answer" not in message
-    plain = graded("def double(x): return x * x * x\n").tasks[0].message
-    assert "in place" not in plain and "another answer" not in plain
 
 
 def test_two_calls_are_bounded_and_cost_no_time(graded):

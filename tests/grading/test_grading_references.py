@@ -118,7 +118,13 @@ def test_a_mistake_of_its_own_is_said(graded):
     assert [task.points for task in result.tasks] == [0, 20, 30]
     note, sentence, *_ = result.tasks[1].message.splitlines()
     assert note.endswith("With our solution in its place, it still loses some of its points.")
-    assert sentence == "Then sums(0) is wrong."
+    assert sentence == "Then sums(0) is wrong: 1 was expected."
+
+
+def test_with_two_mistakes_the_call_that_fails_with_ours_is_shown(graded):
+    """Without ours, sums(6.5) fails first, by the mistake of 3.1; with ours, only sums(0) does."""
+    message = graded(BROKEN + SUMS.replace("1", "1 + (x == 0)") + LAST).tasks[1].message
+    assert message.endswith("Then sums(0) is wrong: 1 was expected.") and "sums(6.5)" not in message
 
 
 @pytest.mark.slow

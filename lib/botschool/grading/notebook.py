@@ -14,7 +14,7 @@ from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import Exercise, Task, course_root, load_exercise
 from botschool.grading.declare.state import secret_for_others
-from botschool.grading.judge.judging import GraderFault
+from botschool.grading.judge.points import GraderFault
 from botschool.grading.judge.submission import Submission, TaskResult
 from botschool.grading.run.confined import MachineFault, close_class, fork_server
 from botschool.grading.run.notebooks import code_cells

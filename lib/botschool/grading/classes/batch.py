@@ -26,7 +26,6 @@ from typing import Any
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import Exercise, Number, folder_of, load_exercise
-from botschool.grading.declare.mistakes import case_file
 from botschool.grading.declare.state import DEFAULT, STATE, VARIABLE, make_state
 from botschool.grading.judge.submission import SYNTAX, Result, TaskResult, grade
 from botschool.grading.run.confined import MachineFault, Unread, content_digest, machine_fault
@@ -278,8 +277,7 @@ def _versions(root: Path, number: Number) -> str:
     if isinstance(number, int):
         folder = folder_of(number, root)
         own += sorted(folder.glob("test_*.py"))
-        own += sorted((root / "solutions" / folder.name).glob("*.py"))
-        own.append(case_file(root, number))
+        own += sorted((root / "solutions" / folder.name).glob("*.*"))
     library = sorted((IMPORT_ROOT / "botschool").rglob("*"))
     for path in (*(path for path in library if path.suffix in (".py", ".so", ".pyd")), *own):
         status = path.stat() if path.exists() else None

@@ -10,7 +10,7 @@ from statistics import median, quantiles
 from typing import Any
 from urllib.parse import quote
 
-from botschool.grading.judge.known import TOLD, VARIED
+from botschool.grading.judge.sentence import TOLD
 from botschool.grading.report.paper import paper
 
 MOST_MISTAKES = 5
@@ -86,9 +86,8 @@ def mistake(message: str) -> str:
     It is the cause, if the message has found it, else its first line without numbers.
     """
     lines = message.splitlines()
-    for sign in (TOLD, VARIED):
-        if told := [line for line in lines if line.startswith(sign)]:
-            return told[0][len(sign) :].strip()[:300]
+    if named := [line for line in lines if line.startswith(TOLD)]:
+        return named[0][len(TOLD) :].strip()[:300]
     return re.sub(r"-?\d+(\.\d+)?(e[+-]?\d+)?", "#", lines[0])[:300]
 
 

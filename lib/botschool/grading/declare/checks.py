@@ -12,17 +12,36 @@ from botschool.grading.declare.values import FEW, apart, arrays_apart, kind, sho
 from botschool.sandbox.exceptions import nearest
 from botschool.screen import plain as plain
 
+_TASK = re.compile(r"task (\d+\.\d+)\b")
+
 
 class Wrong(Exception):
     """A check failed; the message is the sentence that the learner reads."""
 
+    said = ""
+    """The call, or its part, that the sentence is about; "" if a check composed the sentence."""
+    wanted = ""
+    """What was expected there, in a few words."""
+    stays = False
+    """Whether the sentence says already that something stays from call to call."""
+
 
 class Mismatch(Wrong):
-    """An answer differs from the expected number or array."""
+    """An answer differs from the expected one."""
+
+    def __init__(self, sentence: str, said: str, wanted: Any) -> None:
+        super().__init__(sentence)
+        self.said, self.wanted = said, show(wanted)
 
 
 class NotDone(Wrong):
-    """The task is not started: the skeleton still raises NotImplementedError."""
+    """A function is not started: the skeleton still raises NotImplementedError."""
+
+    def __init__(self, text: str) -> None:
+        """Take the text of the skeleton's exception, "task 3.2: rank the population"."""
+        super().__init__(f"not done yet{f': {text}' if text else ''}")
+        named = _TASK.match(text)
+        self.task = named[1] if named else ""
 
 
 def expect(condition: bool, sentence: str) -> None:
@@ -63,7 +82,7 @@ def expect_close(said: str, value: Any, expected: Any, tolerance: float = 1e-9) 
     wanted = np.asarray(expected, dtype=np.float64)
     array = _array(said, value, wanted.shape)
     if array.shape != wanted.shape:
-        raise Mismatch(_but(said, value, wanted.shape))
+        raise Mismatch(_but(said, value, wanted.shape), said, wanted)
     odd = ~np.isfinite(wanted) & ((array == wanted) | (np.isnan(array) & np.isnan(wanted)))
     got, wanted = (
         expect_array(said, np.where(odd, 0.0, array), wanted.shape),
@@ -79,7 +98,7 @@ def expect_close(said: str, value: Any, expected: Any, tolerance: float = 1e-9) 
             sentence = f"{said} {came(said)} {bool(value)}, but {bool(expected)} was expected."
         if cuts_fractions(value, wanted):
             sentence += f"\n  It is an array of {value.dtype}, which holds no fractions."
-        raise Mismatch(sentence)
+        raise Mismatch(sentence, said, expected)
 
 
 def cuts_fractions(value: Any, wanted: Any) -> bool:

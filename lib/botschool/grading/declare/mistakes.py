@@ -1,6 +1,6 @@
 """Read the cases of an exercise: wrong answers that prove its grader, and right ones.
 
-tests/course/cases/exNN.txt holds them. A case is a section of the file:
+solutions/exNN_name/cases.txt holds them. A case is a section of the file:
 
     %% noise_of_the_first_only loses 16.2, 16.3 and says so
     Adds noise to the first sensor only.
@@ -9,7 +9,7 @@ tests/course/cases/exNN.txt holds them. A case is a section of the file:
 
 The first line gives the name and the tasks that lose points; a right answer loses none. The second
 line says what the code does wrong, as a sentence for the learner that begins with a verb: a grader
-prints it if a submission answers exactly as this case does (grading/judge/known.py). Lines with `-`
+prints it if a submission answers exactly as this case does (judge/causes.py). Lines with `-`
 are lines of the solution, which must hold them exactly once and without a gap; the lines with `+`
 replace them; the next `-` begins another change. Code that follows is put after the solution's
 functions and redefines them; there `_name` is the solution's function `name`.
@@ -27,8 +27,8 @@ from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
 
-CASES = "tests/course/cases"
-"""Folder of the cases; packed for students."""
+CASES = "cases.txt"
+"""The file beside the solution; packed for students."""
 THIS = "this"
 """What a case `says` that asks for its second line."""
 _TITLE = re.compile(r"(\w+)(?: loses (\d+\.\d+(?:, \d+\.\d+)*)( and says so)?)?")
@@ -66,38 +66,30 @@ class Case:
 
 @dataclass(frozen=True)
 class Known:
-    """An exercise's solution, and the texts of other ones, wrong and right, for the grader."""
+    """An exercise's solution and its cases, for the grader."""
 
     number: int = 0
     solution: str = ""
     mistakes: str = ""
 
-    def styles(self) -> list[str]:
-        """Return the right solutions in other styles: the cases that cost no points."""
-        found = []
-        for case in read_cases(self.number, self.mistakes):
-            with suppress(ValueError):  # it no longer fits the solution
-                found += [case.of(self.solution)] if not case.loses else []
-        return found
+    def changed(self, task: str) -> list[tuple[Case, str]]:
+        """Return the mistakes that cost a task points, with the text of the solution of each.
 
-    def of(self, task: str) -> list[Case]:
-        """Return the mistakes that cost a task points: first those made in this task.
-
-        Mistakes that import something come last, because imports may take long.
+        Those made in this task come first, those that import something last: imports take long.
         """
-        found = [case for case in read_cases(self.number, self.mistakes) if task in case.loses]
-        return sorted(found, key=lambda c: (bool(_IMPORT.search(c.code)), c.loses.index(task)))
-
-
-def case_file(root: Path, number: int) -> Path:
-    """Return the file of an exercise's cases; root: the course."""
-    return root / CASES / f"ex{number:02d}.txt"
+        cases = [case for case in read_cases(self.number, self.mistakes) if task in case.loses]
+        cases.sort(key=lambda case: (bool(_IMPORT.search(case.code)), case.loses.index(task)))
+        texts = list[tuple[Case, str]]()
+        for case in cases:
+            with suppress(ValueError):  # it no longer fits the solution
+                texts.append((case, case.of(self.solution)))
+        return texts
 
 
 def case_text(root: Path, number: int) -> str:
-    """Return the text of an exercise's cases, "" if it has none."""
-    path = case_file(root, number)
-    return path.read_text(encoding="utf-8") if path.is_file() else ""
+    """Return the text of an exercise's cases, "" if it has none; root: the course."""
+    paths = sorted((root / "solutions").glob(f"ex{number:02d}_*/{CASES}"))
+    return paths[0].read_text(encoding="utf-8") if paths else ""
 
 
 def inserted(text: str, addition: str) -> str:

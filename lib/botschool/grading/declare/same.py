@@ -30,7 +30,7 @@ from botschool.grading.declare.arguments import (
     one_changed,
     with_others,
 )
-from botschool.grading.declare.checks import Wrong, expect, expect_close, expect_fields, show
+from botschool.grading.declare.checks import Mismatch, Wrong, expect_close, expect_fields, show
 from botschool.grading.declare.exercise import Task
 from botschool.grading.declare.values import argument
 from botschool.sandbox.protocol import pack
@@ -178,7 +178,7 @@ class Same:
             wanted = self.seen("", ours.value, arguments)
             alike(said, self.seen(said, answer, arguments), wanted, self.tolerance, self.parts)
         except Wrong as error:
-            error.args = (f"{error} {KEPT}",)
+            error.args, error.stays = (f"{error} {KEPT}",), True
             raise
 
     def _compare(self, student: Any, arguments: tuple, kept: str = "") -> None:
@@ -197,6 +197,7 @@ class Same:
             alike(student.said, answer, wanted, tolerance, self.parts)
         except Wrong as error:
             error.args = (f"{error} {NOTES.get(kept, '')}".rstrip(),)
+            error.stays = kept == "again"
             raise
 
     def seen(self, said: str, answer: Any, arguments: tuple) -> Any:
@@ -303,14 +304,16 @@ def alike(said: str, got: Any, wanted: Any, tolerance: float, parts: tuple[str, 
             alike(f"{before}: {key}", value, wanted[key], tolerance)
     elif isinstance(wanted, (list, tuple)) and not numbers(wanted):
         names = parts or tuple(f"[{i}]" for i in range(len(wanted)))
-        right = isinstance(got, (list, tuple)) and len(got) == len(wanted)
-        expect(right, f"{said} should be {len(wanted)} values, not {show(got)}.")
+        if not isinstance(got, (list, tuple)) or len(got) != len(wanted):
+            sentence = f"{said} should be {len(wanted)} values, not {show(got)}."
+            raise Mismatch(sentence, said, wanted)
         for name, one, other in zip(names, got, wanted, strict=True):
             alike(f"{before}: {name}", one, other, tolerance)
     elif wanted is None or isinstance(wanted, (str, bool, np.bool_)):
         got, wanted = (bool(e) if isinstance(e, np.bool_) else e for e in (got, wanted))
-        right = isinstance(got, (str, bool, np.bool_, type(None))) and got == wanted
-        expect(right, f"{said} is {show(got)}, but {show(wanted)} was expected.")
+        if not isinstance(got, (str, bool, np.bool_, type(None))) or got != wanted:
+            sentence = f"{said} is {show(got)}, but {show(wanted)} was expected."
+            raise Mismatch(sentence, said, wanted)
     else:
         expect_close(said, got, wanted, tolerance)
 

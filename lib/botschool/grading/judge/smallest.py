@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import closing, suppress
 from functools import partial
 from typing import Any
 
 import numpy as np
 
-from botschool.errors import BotschoolError
-from botschool.grading.declare.checks import Wrong, came, expect_close
-from botschool.grading.declare.values import pasted, show
-from botschool.grading.judge.alike import distance
+from botschool.grading.declare.alike import distance
+from botschool.grading.declare.checks import Wrong
+from botschool.grading.declare.values import pasted
+from botschool.grading.judge.sentence import APART
 from botschool.grading.run.student import Student
 
 SECONDS = 2.0
@@ -27,32 +26,29 @@ LONGEST, WORDS, MOST = 640, 48, 72
 """Characters and words of a call to show, and numbers in one of its arguments."""
 DIGITS = (3, 5, 17)
 """Digits of fractions in such a call; the first that makes the answers differ is used."""
-APART = 1e-4
-"""Relative difference of two answers that is reported."""
 Cut = Callable[[np.ndarray], np.ndarray]
 
 
-def smallest_case(
-    request: dict[str, Any], found: Student, ours: Callable[[], Student]
-) -> tuple[str, dict[str, Any]] | None:
-    """Return the text of a small call that the submission answers wrongly, and this call.
+def smallest_call(
+    request: dict[str, Any], submission: Student, ours: Student
+) -> tuple[str, dict[str, Any], Any] | None:
+    """Return a small call that the submission answers wrongly: text, request and our answer.
 
     request: a function call with arrays that was answered wrongly; with {} there is no small one.
-    found: the submission, whose time does not count. ours: makes a Student of our solution.
+    submission, ours: both in processes whose time does not count. Raises Wrong and BotschoolError.
     """
-    if not request:
-        return None
-    with suppress(BotschoolError, Wrong, OSError), closing(ours()) as solution:
-        end = solution.seconds_left - SECONDS
-        for call in (*_smaller(request), request):
-            told = _told(call, found, solution)
-            if told or solution.seconds_left < end:
-                return told
-    return None  # a fault of the machine, or no time is left
+    end = ours.seconds_left - SECONDS
+    for call in (*_smaller(request), request) if request else ():
+        small = _simplest(call, submission, ours)
+        if small or ours.seconds_left < end:
+            return small
+    return None
 
 
-def _told(call: dict[str, Any], found: Student, ours: Student) -> tuple[str, dict[str, Any]] | None:
-    """Return a call as text, and as it is shown there.
+def _simplest(
+    call: dict[str, Any], submission: Student, ours: Student
+) -> tuple[str, dict[str, Any], Any] | None:
+    """Return a call with the fewest digits that still tell the answers apart.
 
     None if both agree, or one of them cannot answer.
     """
@@ -61,15 +57,15 @@ def _told(call: dict[str, Any], found: Student, ours: Student) -> tuple[str, dic
         parts = simple["name"], tuple(simple["arguments"]), simple["options"]
         text = pasted(*parts, LONGEST, MOST)
         many = len(text.split()) > WORDS
-        if not text or many or ours.seconds_left <= 0 or found.seconds_left <= 0:
+        if not text or many or ours.seconds_left <= 0 or submission.seconds_left <= 0:
             continue
         try:
-            right, got = ours.ask(simple), found.ask(simple)
+            right, got = ours.ask(simple), submission.ask(simple)
         except Wrong:
             continue
         size = right.size if isinstance(right, np.ndarray) else right != [] and right != {}
         if size and _finite(got) and _finite(right) and distance(got, right) > APART:
-            return text, simple
+            return text, simple, right
     return None
 
 
@@ -77,40 +73,12 @@ def _finite(answer: Any) -> bool:
     """Return whether an answer holds no NaN and no infinity."""
     if isinstance(answer, dict):
         answer = list(answer.values())
-    if isinstance(answer, list) and not all(isinstance(each, (int, float)) for each in answer):
+    if isinstance(answer, list) and not all(isinstance(number, (int, float)) for number in answer):
         return all(map(_finite, answer))
     try:
         return bool(np.isfinite(answer).all())
     except TypeError:
         return True
-
-
-def difference(said: str, got: Any, right: Any) -> str:
-    """Return a sentence about the first part of two answers that differs."""
-    if isinstance(got, dict) and isinstance(right, dict):
-        for key in right:
-            if key in got and distance(got[key], right[key]) > APART:
-                return difference(f"{said}: {key}", got[key], right[key])
-    if _of_parts(got) and _of_parts(right) and len(got) == len(right):
-        for place, (mine, wanted) in enumerate(zip(got, right, strict=True)):
-            if distance(mine, wanted) > APART:
-                return difference(f"{said}[{place}]", mine, wanted)
-    if _of_parts(right) and isinstance(got, list) and len(got) != len(right):
-        return f"{said} has {len(got)} parts, but {len(right)} were expected."
-    if not _of_parts(right) and got is not None and right is not None:
-        try:
-            expect_close(said, got, right, APART)
-        except Wrong as error:
-            return str(error)
-        except (TypeError, ValueError, OverflowError):  # no numbers, or rows of different lengths
-            pass
-    return f"{said} {came(said)} {show(got)}, but {show(right)} was expected."
-
-
-def _of_parts(answer: Any) -> bool:
-    """Return whether an answer is a list with arrays, dicts or None."""
-    kinds = (np.ndarray, dict, type(None))
-    return isinstance(answer, list) and any(isinstance(part, kinds) for part in answer)
 
 
 def _smaller(request: dict[str, Any]) -> Iterator[dict[str, Any]]:
@@ -165,7 +133,7 @@ def _arrays(value: Any) -> list[np.ndarray]:
         return [value] if value.ndim else []
     if isinstance(value, dict):
         value = list(value.values())
-    return [each for part in value for each in _arrays(part)] if isinstance(value, list) else []
+    return [array for part in value for array in _arrays(part)] if isinstance(value, list) else []
 
 
 def _cut(value: Any, cut: Cut) -> Any:
@@ -173,8 +141,8 @@ def _cut(value: Any, cut: Cut) -> Any:
     if isinstance(value, np.ndarray):
         return cut(value) if value.ndim else value
     if isinstance(value, dict):
-        return {key: _cut(each, cut) for key, each in value.items()}
-    return [_cut(each, cut) for each in value] if isinstance(value, (list, tuple)) else value
+        return {key: _cut(part, cut) for key, part in value.items()}
+    return [_cut(part, cut) for part in value] if isinstance(value, (list, tuple)) else value
 
 
 def _rounded(value: Any, digits: int) -> Any:
@@ -182,10 +150,10 @@ def _rounded(value: Any, digits: int) -> Any:
     if isinstance(value, float):
         return float(f"{value:.{digits}g}")
     if isinstance(value, np.ndarray) and value.dtype.kind == "f":
-        texts = [f"{each:.{digits}g}" for each in value.ravel()]
+        texts = [f"{number:.{digits}g}" for number in value.ravel()]
         return np.array(texts, dtype=value.dtype).reshape(value.shape)
     if isinstance(value, dict):
-        return {key: _rounded(each, digits) for key, each in value.items()}
+        return {key: _rounded(part, digits) for key, part in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_rounded(each, digits) for each in value]
+        return [_rounded(part, digits) for part in value]
     return value

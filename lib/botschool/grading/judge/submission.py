@@ -15,8 +15,8 @@ from pathlib import Path
 from botschool.grading.declare.checks import Wrong, plain
 from botschool.grading.declare.exercise import Exercise, Task, cannot_be_graded
 from botschool.grading.declare.references import functions_of, pruned
-from botschool.grading.judge.judging import TaskResult, grade_task, tried_twice
-from botschool.grading.judge.known import TOLD, VARIED
+from botschool.grading.judge.points import TaskResult, grade_task, tried_twice
+from botschool.grading.judge.sentence import built_on
 from botschool.grading.run.cells import NEWER, Script, Unreadable, gives_builtins, scripts
 from botschool.grading.run.confined import (
     MachineFault,
@@ -38,7 +38,6 @@ LOADING_SECONDS = 10
 """Processor seconds of all code in a file or a notebook outside functions."""
 _CELL = re.compile(r"^(?=# %%)", re.MULTILINE)
 _DEFINITION = re.compile(r"^(async def|def|class)\b", re.MULTILINE)
-_WORDS = ("task", "does", "solution", "its"), ("tasks", "do", "solutions", "their")
 _NOT_GRADED = "Not graded: mend the file first, as said above."
 SYNTAX, EVERYTHING = "BOTSCHOOL_SYNTAX_ERROR", "everything"
 """The environment variable that says what a syntax error costs, else only what stands there."""
@@ -65,7 +64,7 @@ class Result:
     @property
     def missing(self) -> list[str]:
         """Return what this system could not confine, in words."""
-        return list(dict.fromkeys(each for task in self.tasks for each in task.missing))
+        return list(dict.fromkeys(part for task in self.tasks for part in task.missing))
 
     def to_json(self) -> dict:
         """Return the form of `botschool grade --json`."""
@@ -186,8 +185,8 @@ class Submission:
         if self._failure:
             return TaskResult(task.id, task.title, 0, task.max_points, self._failure)
         if task.id not in self._results:
-            done = [self._results.get(each.id) for each in self._needed(task)]
-            if any(each and each.hung for each in done):
+            done = [self._results.get(other.id) for other in self._needed(task)]
+            if any(other and other.hung for other in done):
                 result = TaskResult(task.id, task.title, 0, task.max_points, "")
             else:
                 result = self._attempt(task)
@@ -223,37 +222,32 @@ class Submission:
 
     def _with_references(self, task: Task, result: TaskResult) -> TaskResult:
         """Return the result, or a better one with our functions for failing tasks."""
-        exercise, own = self._exercise, f"not done yet: task {task.id}:"
-        if not exercise.references or not task.needs or own in result.message:
+        exercise = self._exercise
+        if not exercise.references or not task.needs or result.undone == task.id:
             return result
         needed = exercise.needed(task)
         functions = functions_of(exercise.references)
         broken = [
-            each
-            for each in needed
-            if each.id in functions and self.grade(each).points < each.max_points
+            other
+            for other in needed
+            if other.id in functions and self.grade(other).points < other.max_points
         ]
         if not broken:
             return result
-        names = [name for each in broken for name in functions[each.id]]
-        source = pruned(exercise.references, [each.id for each in needed])
+        names = [name for other in broken for name in functions[other.id]]
+        source = pruned(exercise.references, [other.id for other in needed])
         again = self._attempt(task, {"source": source, "names": names})
-        which = " and ".join(f"{each.id} ({', '.join(functions[each.id])})" for each in broken)
-        task_or_tasks, do, solution, place = _WORDS[len(broken) > 1]
-        yours = f"This task builds on {task_or_tasks} {which}, which {do} not pass yet."
-        with_ours = f"With our {solution} in {place} place, it"
+        missing = again.max_points - again.points
+        gain = max(0, again.points - result.points)
+        line = built_on([(other.id, functions[other.id]) for other in broken], gain, missing)
         result.hung |= again.hung
-        if again.points <= result.points:
-            lines = [result.message, f"{yours} {with_ours} fails as well."]
-        elif again.points == again.max_points:
-            lines = [f"{yours} {with_ours} gets all of its points."]
-        else:
-            lines = [f"{yours} {with_ours} still loses some of its points."]
-            lines.append(again.message or result.message)
-        result.explain = partial(_with_the_cause, lines, result.message, again)
-        if again.points > result.points:
+        # without our functions the same call fails, and its answer may be shown
+        own = result.message if again.failing == result.failing else ""
+        below = own or again.message
+        result.message = _lines(line, below) if gain else _lines(below, line)
+        result.explain = partial(_of_both, line, own, again, gain)
+        if gain:
             result.points, result.checks = again.points, again.checks
-        result.message = "\n".join(filter(None, lines))
         return result
 
     def _digest(self) -> str:
@@ -285,7 +279,7 @@ class Submission:
         if defined is None:
             _, defined = scripts(self._cells())
         parts = self._sources if self._sources is not None else _CELL.split(self._text())
-        broken = [self._not_python(parts, *each) for each in defined.left_out]
+        broken = [self._not_python(parts, *place) for place in defined.left_out]
         if broken:
             what = "Your file" if self._sources is None else "The notebook"
             newer = all(NEWER in error for _, _, _, error, _ in defined.left_out)
@@ -372,14 +366,19 @@ class Submission:
         return f"line {line} of the cell '{shown[:40]}{'...' if len(shown) > 40 else ''}'"
 
 
-def _with_the_cause(lines: list[str], own: str, again: TaskResult) -> str:
-    """Return the lines with the cause of another attempt's failure in the place of its message.
+def _lines(*parts: str) -> str:
+    return "\n".join(filter(None, parts))
 
-    lines: of the message. own: the one among them that tells what failed without our functions.
+
+def _of_both(line: str, own: str, again: TaskResult, gain: int) -> tuple[str, str]:
+    """Return the cause of a failure with our functions, and the whole message.
+
+    line: on the tasks that this one builds on. own: what failed without our functions, if that is
+    the same call. gain: the points that it gets by our functions.
     """
-    before, told = again.message, again.complete().message
-    known = told.startswith((TOLD, VARIED))
-    return "\n".join(told if each == before or (known and each == own) else each for each in lines)
+    again.complete()
+    below = _lines(again.cause, own) if own else again.message
+    return again.cause, _lines(line, below) if gain else _lines(below, line)
 
 
 def _left_out(file: Path, server: ForkServer, origin: Origin) -> list[tuple[str, int, str]]:

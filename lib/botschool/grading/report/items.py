@@ -15,7 +15,7 @@ import pytest
 
 from botschool.grading.declare.exercise import Exercise, load_exercise, submission_file
 from botschool.grading.declare.exercise import Task as Declared
-from botschool.grading.judge.judging import TaskResult
+from botschool.grading.judge.points import TaskResult
 from botschool.grading.judge.submission import grade
 
 _FOLDER = re.compile(r"ex(\d\d)_\w+")

@@ -51,7 +51,7 @@ class Screen:
     def task(self, result: TaskResult) -> None:
         """Print one task: its points, and why some are missing."""
         mark = {True: "[green]✓[/]", False: "[red]✗[/]"}[result.points == result.max_points]
-        if result.message.startswith("not done yet") and result.points == 0:
+        if result.undone and result.points == 0:
             mark = "[dim]·[/]"
         points = f"{result.points:>3} of {result.max_points}"
         if not result.graded:
@@ -91,7 +91,7 @@ class Screen:
             )
             return
         task = missing[0]
-        done = not task.message.startswith("not done yet")
+        done = not task.undone
         calls = f"All its calls: botschool explain {task.id}   " if task.compared and done else ""
         if task.pictured and done:
             calls += f"A picture: botschool show {task.id}   "

@@ -199,7 +199,7 @@ def explained(answer: dict[str, Any], said: str, source: SourceLines) -> Wrong:
             f"{said} returned {_no_numbers(text)}, but numbers, lists or arrays are needed."
         )
     if name == "NotImplementedError":
-        return NotDone(f"not done yet{f': {text}' if text else ''}")
+        return NotDone(text)
     if name == "Missing":
         return Wrong(_missing(text, near, source))
     if name == "Signature":

@@ -16,6 +16,8 @@ from botschool.sandbox.protocol import pack
 
 SECONDS = 3600.0
 """Processor seconds of all answers."""
+APART_SECONDS = 60.0
+"""Processor seconds of a process in which mistakes are tried."""
 
 
 @dataclass
@@ -44,6 +46,7 @@ class Ours:
         self.place.write_text(solution, encoding="utf-8")
         self._limits = SECONDS, memory, server, True
         self._student: Student | None = None
+        self._apart: Student | None = None
         self._kept: dict[bytes, Answer] = {}
 
     @property
@@ -51,6 +54,23 @@ class Ours:
         """Return our solution as a submission."""
         self._student = self._student or Student(self.place, *self._limits)
         return self._student
+
+    @property
+    def apart(self) -> Student:
+        """Return our solution in another process, in which nothing counts for points.
+
+        Known mistakes are tried there. A new process starts when little time is left.
+        """
+        if self._apart is None or self._apart.seconds_left < APART_SECONDS / 2:
+            self.leave()
+            self._apart = Student(self.place, APART_SECONDS, *self._limits[1:])
+        return self._apart
+
+    def leave(self) -> None:
+        """End the other process."""
+        if self._apart is not None:
+            self._apart.close()
+            self._apart = None
 
     def answer(self, what: str | Callable[..., Any], arguments: tuple) -> Answer:
         """Return our answer of a function with this name, or of a driver."""
@@ -72,7 +92,8 @@ class Ours:
         return self._kept[key]
 
     def close(self) -> None:
-        """End the process and remove the file."""
+        """End the processes and remove the file."""
+        self.leave()
         if self._student is not None:
             self._student.close()
         self._folder.cleanup()

@@ -29,14 +29,15 @@ def diagnose(
     wanted: Any,
     arguments: tuple = (),
     answer: Any = None,
-) -> str:
-    """Return a sentence about the likely cause, or ""."""
+) -> tuple[str, str]:
+    """Return a detector's name and its sentence about the likely cause; ("", "") for none."""
     got, wanted = np.asarray(got, dtype=np.float64), np.asarray(wanted, dtype=np.float64)
     sizes_fit = 0 < got.size <= MAX_NUMBERS and 0 < wanted.size <= MAX_NUMBERS
     if not sizes_fit or not (np.all(np.isfinite(got)) and np.all(np.isfinite(wanted))):
-        return ""
-    found = Comparison(got, wanted, arguments, answer)
+        return "", ""
+    both = Comparison(got, wanted, arguments, answer)
     if alike(got, wanted):
-        return ""
+        return "", ""
     with np.errstate(all="ignore"):
-        return next((text for each in DETECTORS if (text := each(found))), "")
+        sentences = ((detector.__name__, detector(both)) for detector in DETECTORS)
+        return next(((name, text) for name, text in sentences if text), ("", ""))

@@ -16,15 +16,10 @@ from botschool.grading.declare.checks import Wrong, plain
 from botschool.grading.declare.exercise import Task
 from botschool.grading.declare.mistakes import Known
 from botschool.grading.judge.causes import Explanation
-from botschool.grading.judge.looking import (
-    MAX_SECONDS,
-    Failure,
-    TookTooLong,
-    failure_of,
-    processor_time_limit,
-)
+from botschool.grading.judge.sentence import QUICK, Failure, failure_of
 from botschool.grading.run.confined import MachineFault, machine_fault
 from botschool.grading.run.failures import Origin
+from botschool.grading.run.limit import TookTooLong, processor_time_limit
 from botschool.grading.run.student import Student
 from botschool.sandbox import ForkServer
 
@@ -33,9 +28,9 @@ CHECK_SECONDS = 20
 """Processor seconds of a check in the grader's own thread; our solutions need up to 3."""
 AGAIN = "It fails with our functions in the place of others, too."
 """What is said of a check of such an attempt."""
-SLIPS = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
+FAULTS = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 MOST_SECONDS = 2.0
-"""As MAX_SECONDS, of a check that has failed: a known mistake must explain its answers, too."""
+"""As QUICK, of a check that has failed: a known mistake must explain its answers, too."""
 LOOKING_SECONDS = 6.0
 """Processor seconds of the submission while a cause is looked for."""
 
@@ -52,8 +47,14 @@ class TaskResult:
     """Why points are missing, in sentences; empty for full marks."""
     checks: dict[str, str] = field(default_factory=dict)
     """Why each check fails, by its name; "" where it passes."""
-    explain: Callable[[], str] | None = field(default=None, repr=False, compare=False)
-    """Finds the cause and returns the whole message; takes seconds."""
+    cause: str = ""
+    """The line of the message that names the cause, once it is complete."""
+    undone: str = ""
+    """The task of the function that is not started yet, if that is why points are missing."""
+    failing: str = ""
+    """The call, and the part of its answer, at which the first check fails."""
+    explain: Callable[[], tuple[str, str]] | None = field(default=None, repr=False, compare=False)
+    """Finds the cause; returns it and the whole message. Takes up to some seconds."""
     compared: bool = False
     """Whether checks of the task compare with our solution, so that `explain` shows their calls."""
     pictured: bool = False
@@ -75,7 +76,7 @@ class TaskResult:
         """Find the cause and complete the message, once."""
         if self.explain is not None:
             explain, self.explain = self.explain, None
-            self.message = explain()
+            self.cause, self.message = explain()
         self.message += self.note
         self.note = ""
         return self
@@ -119,41 +120,38 @@ def _grade_task(
     result.pictured = task.picture is not None
     failed: list[Failure] = []
     cheap: list[Callable[[Student], None]] = []
-    student, call, shown = None, "", ""
+    student, shown = None, ""
+    quiet = references is not None
     try:
         student = Student(
             file, task.seconds, task.memory, server, tried, origin, references, task.refused
         )
         for worth, name, check in task.checks:
             start = time.thread_time() - student.seconds_left
-            problem = _problem(task, check, student)
+            failure = _failure(task, check, student)
             spent = time.thread_time() - student.seconds_left - start
-            if spent < (MAX_SECONDS if problem is None else MOST_SECONDS):
+            if spent < (QUICK if failure is None else MOST_SECONDS):
                 cheap.append(check)
-            said = problem.text if problem and references is None else AGAIN
-            result.checks[name] = said if problem else ""
-            if problem is None:
+            result.checks[name] = (AGAIN if quiet else failure.text) if failure else ""
+            if failure is None:
                 result.points += worth
             else:
-                failed.append(problem)
-                call = call or student.pasted
+                failed.append(failure)
         student.stop()
-        if references is None:
+        if not quiet:
             result.printed = plain(student.printed)
             result.pictures = student.pictures()
         result.missing, result.hung = student.missing, bool(student.hung)
         result.compared = any(hasattr(check, "what") for _, _, check in task.checks)
-        seconds = min(LOOKING_SECONDS, task.seconds)
-        limits = seconds, task.memory, server, True
-        begun = partial(Student, file, *limits, origin, references, task.refused)
-        if references is not None:
-            shown = f"Then {call} is wrong." if call else ""
-        elif failed:
-            shown = failed[0].text
-        if failed and known.solution:
-            quiet = references is not None
-            look = Explanation(task, known, task.exercise.ours, begun, failed, cheap, quiet)
-            result.explain = partial(_explained, look, shown)
+        if failed:
+            first = failed[0]
+            shown, result.undone = first.public if quiet else first.text, first.undone
+            result.failing = first.public
+            if known.solution:
+                limits = min(LOOKING_SECONDS, task.seconds), task.memory, server, True
+                begun = partial(Student, file, *limits, origin, references, task.refused)
+                look = Explanation(task, known, task.exercise.ours, begun, failed, cheap, quiet)
+                result.explain = partial(_explained, look, shown)
     except Wrong as error:
         shown = str(error)
     finally:
@@ -163,18 +161,19 @@ def _grade_task(
     return result
 
 
-def _explained(look: Explanation, shown: str) -> str:
-    """Return the message with the cause; the one that is shown already, if that fails."""
+def _explained(look: Explanation, shown: str) -> tuple[str, str]:
+    """Return the cause and the whole message; what is shown already, if that fails."""
     try:
-        return plain(look.text())
-    except SLIPS as slip:  # of ours, and points do not depend on it
-        warnings.warn(f"The cause of a failure could not be found: {slip!r}.", stacklevel=1)
+        cause, text = look.message()
+        return plain(cause), plain("\n".join(filter(None, [cause, text])))
+    except FAULTS as fault:  # of ours, and points do not depend on it
+        warnings.warn(f"The cause of a failure could not be found: {fault!r}.", stacklevel=1)
     except BotschoolError:  # a fault of the machine
         pass
-    return plain(shown)
+    return "", plain(shown)
 
 
-def _problem(task: Task, check: Callable[[Student], None], student: Student) -> Failure | None:
+def _failure(task: Task, check: Callable[[Student], None], student: Student) -> Failure | None:
     """Return why a check fails; None if it passes."""
     answers = student.answers
     before = student.seconds_left
