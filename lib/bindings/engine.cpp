@@ -1,4 +1,5 @@
 #include "arena/engine/engine.hpp"
+#include "arena/engine/expression.hpp"
 
 #include <nanobind/stl/unique_ptr.h>
 
@@ -48,9 +49,21 @@ nb::dict to_dict(const Info& info) {
   return d;
 }
 
-/// options: None, or of either kind.
+/// A reward or an end of episodes of one's own, and the options that go with it.
+struct Aim {
+  Program program;
+  nb::object options;
+};
+
+/// options: None, of either kind, or an Aim around them.
 Setting setting_of(int limit, nb::handle options) {
   if (limit < 1) throw std::invalid_argument("an episode needs at least one step.");
+  if (nb::isinstance<Aim>(options)) {
+    const Aim& aim = nb::cast<const Aim&>(options);
+    Setting setting = setting_of(limit, aim.options);
+    setting.program = &aim.program;
+    return setting;
+  }
   Setting setting{limit};
   if (nb::isinstance<Race>(options))
     setting.space = &nb::cast<const Race&>(options).options;
@@ -226,6 +239,20 @@ void set_objects(Stepper& stepper, Matrix<const double> rows) {
   stepper.set_objects(rows.data());
 }
 
+std::unique_ptr<Stepper> stepper_of(const std::string& problem, nb::handle options) {
+  auto stepper = make_stepper(problem);
+  stepper->set(setting_of(1, options));
+  return stepper;
+}
+
+/// Tuples of name, unit and meaning.
+nb::list list_quantities(const std::string& problem, nb::handle options) {
+  nb::list list;
+  for (const Quantity& q : quantities(*stepper_of(problem, options)))
+    list.append(nb::make_tuple(q.name, q.unit, q.meaning));
+  return list;
+}
+
 }  // namespace
 
 void bind_engine(nb::module_& module) {
@@ -236,6 +263,21 @@ void bind_engine(nb::module_& module) {
     return list;
   });
 
+  module.def("quantities", &list_quantities, nb::arg("problem"),
+             nb::arg("options").none() = nb::none());
+  nb::class_<Aim>(module, "Aim")
+      .def(
+          "__init__",
+          [](Aim* made, const std::string& problem, nb::object options, const std::string& reward,
+             const std::string& ends) {
+            Program program;
+            const std::string wrong =
+                compile(*stepper_of(problem, options), reward, ends, program);
+            if (!wrong.empty()) throw std::invalid_argument(wrong);
+            new (made) Aim{program, options};
+          },
+          nb::arg("problem"), nb::arg("options").none() = nb::none(), nb::arg("reward") = "",
+          nb::arg("ends") = "");
   nb::class_<Engine>(module, "Engine")
       .def(
           "__init__",

@@ -5,6 +5,7 @@
 //   void start(int lane, Random& random);           start of an episode
 //   void observe(T* out) const;                     out[i * L + lane]: observation i
 //   void step(const double* action, double* reward, std::int64_t* ended);
+//   void quantities(Quantities<L>& q) const;        what a reward of one's own may name: reward.hpp
 // and the line BOTSCHOOL_PROBLEM(Name), by which the build finds it. action[o * L + lane] is actuator o
 // (or, for a discrete problem, the index of the action); with several robots, first all observations or
 // actuators of one, then of the next. All lanes step together; an ended lane may do anything until it
@@ -23,6 +24,7 @@ namespace botschool {
 struct Plan;          // an arena with wheeled robots: robots/plan.hpp
 struct ArenaOptions;  // what its user may choose
 struct SpaceOptions;  // about a race in space: robots/jointed/solid.hpp
+struct Program;       // a reward of one's own: reward.hpp
 
 /// Robots in a problem, one network each.
 constexpr int kMaxRobots = 4;
@@ -51,10 +53,14 @@ struct Setting {
   int limit;                            ///< longest episode, in steps
   const ArenaOptions* arena = nullptr;  ///< or null: the problem's own
   const SpaceOptions* space = nullptr;
+  const Program* program = nullptr;  ///< or null: the problem's own reward
 };
 
 /// A row of an object in an arena: x, y, x2, y2, radius.
 constexpr int kObject = 5;
+
+/// `ended` of a lane whose simulation has broken down: a program pays nothing there, and ends it.
+constexpr std::int64_t kBroken = 2;
 
 }  // namespace botschool
 
@@ -76,6 +82,8 @@ struct ProblemBase {
   /// Writes the smallest and the largest value of each observation of a robot, if there are limits;
   /// the arrays come with infinities.
   void bounds(double*, double*) const {}
+  template <class Quantities>
+  void quantities(Quantities&) const {}
   /// The objects in an arena, as rows of kObject values (one lane).
   int objects() const { return 0; }
   void get_objects(double*) const {}

@@ -145,6 +145,8 @@ class Rollout {
     for (int i = 0; i < entry_.info.states; ++i)
       problem_.state[i * L + lane] = other.problem_.state[i * W + from];
     problem_.refresh(lane);
+    for (int i = 0; i < problem_.keeps; ++i)
+      problem_.kept[i * L + lane] = other.problem_.kept[i * W + from];
     for (int r = 0; r < robots_; ++r) {
       keys_[r][lane] = other.keys_[r][from];
       load(lane, r, other.candidate_[r][from]);

@@ -3,14 +3,21 @@
 
 #include <new>
 
+#include "reward.hpp"
 #include "simulation.hpp"
 
 BOTSCHOOL_BEGIN
 
 template <template <int> class Problem, int L>
 struct Simulated final : Simulation<L> {
-  Simulated() { this->state = &problem.state[0][0]; }
-  void set(const Setting& setting) override { problem.set(setting); }
+  Simulated() {
+    this->state = &problem.state[0][0];
+    this->kept = &problem.payer.kept[0][0];
+  }
+  void set(const Setting& setting) override {
+    problem.set(setting);
+    this->keeps = problem.payer.keeps();
+  }
   void build(int lane, const double* body) override { problem.build(lane, body); }
   void start(int lane, Random& random) override { problem.start(lane, random); }
   void refresh(int lane) override { problem.refresh(lane); }
@@ -18,7 +25,7 @@ struct Simulated final : Simulation<L> {
   void step(const double* action, double* reward, std::int64_t* ended) override {
     problem.step(action, reward, ended);
   }
-  alignas(64) Problem<L> problem{};
+  alignas(64) Paid<Problem, L> problem{};
 };
 
 template <template <int> class Problem, int L>

@@ -25,6 +25,8 @@ struct Simulation {
   virtual void observe(Real* out) const = 0;
   virtual void step(const double* action, double* reward, std::int64_t* ended) = 0;
   double* state = nullptr;  ///< [states][L]
+  double* kept = nullptr;   ///< [keeps][L], of a reward of one's own
+  int keeps = 0;
 
  protected:
   ~Simulation() = default;

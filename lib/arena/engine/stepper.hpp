@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "problem.hpp"
+#include "reward.hpp"
 
 namespace botschool {
 
@@ -24,6 +24,8 @@ class Stepper {
   virtual void observe(double* observation) const = 0;
   /// Returns whether the episode has ended (the caller handles the time limit).
   virtual bool step(const double* action, double& reward) = 0;
+  /// Tells the quantities that a reward may name.
+  virtual void quantities(TellQuantity tell, void* to) const = 0;
 
   /// What stands in an arena, a row of kObject values each.
   virtual int objects() const = 0;

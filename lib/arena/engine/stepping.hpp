@@ -32,6 +32,7 @@ class ProblemStepper final : public Stepper {
   void set_state(const double* state) override {
     for (int i = 0; i < info().states; ++i) problem_.state[i][0] = state[i];
     problem_.refresh(0);
+    if (problem_.payer.program) problem_.look(0);
   }
   void get_state(double* state) const override {
     for (int i = 0; i < info().states; ++i) state[i] = problem_.state[i][0];
@@ -47,13 +48,17 @@ class ProblemStepper final : public Stepper {
     problem_.step(action, &reward, &ended);
     return ended != 0;
   }
+  void quantities(TellQuantity tell, void* to) const override {
+    Quantities<1> q(tell, to);
+    problem_.list(q);
+  }
   int objects() const override { return problem_.objects(); }
   void get_objects(double* rows) const override { problem_.get_objects(rows); }
   void set_objects(const double* rows) override { problem_.set_objects(rows); }
   int blocked() const override { return problem_.blocked(); }
 
  private:
-  Problem<1> problem_{};
+  Paid<Problem, 1> problem_{};
   Info info_;
   std::vector<double> body_;
 };

@@ -2,7 +2,7 @@
 // fourth-order Runge-Kutta.
 #pragma once
 
-#include "../engine/problem.hpp"
+#include "../engine/reward.hpp"
 
 BOTSCHOOL_BEGIN
 
@@ -45,6 +45,16 @@ struct Acrobot : ProblemBase {
       out[4 * L + l] = static_cast<T>(state[2][l]);
       out[5 * L + l] = static_cast<T>(state[3][l]);
     }
+  }
+
+  void quantities(Quantities<L>& q) const {
+    q.row("angle1", "rad", "of the upper link; 0 hangs", state[0]);
+    q.row("angle2", "rad", "of the lower link against the upper one", state[1]);
+    q.row("spin1", "rad/s", "of the upper link", state[2]);
+    q.row("spin2", "rad/s", "of the lower link against the upper one", state[3]);
+    q.value("height", "m", "of the lower end above the hinge", [this](int l) {
+      return -cosine1[l] - (cosine1[l] * cosine2[l] - sine1[l] * sine2[l]);
+    });
   }
 
   /// Angular accelerations; masses, lengths and moments of inertia are 1, centres of mass at 0.5.

@@ -1,7 +1,7 @@
 // Gymnasium's CartPole (Barto, Sutton and Anderson 1983), explicit Euler.
 #pragma once
 
-#include "../engine/problem.hpp"
+#include "../engine/reward.hpp"
 
 BOTSCHOOL_BEGIN
 
@@ -32,6 +32,13 @@ struct CartPole : ProblemBase {
   void observe(T* BOTSCHOOL_RESTRICT out) const {
     for (int i = 0; i < 4; ++i)
       for (int l = 0; l < L; ++l) out[i * L + l] = static_cast<T>(state[i][l]);
+  }
+
+  void quantities(Quantities<L>& q) const {
+    q.row("x", "m", "place of the cart", state[0]);
+    q.row("speed", "m/s", "of the cart", state[1]);
+    q.row("angle", "rad", "of the pole; 0 is upright", state[2]);
+    q.row("spin", "rad/s", "of the pole", state[3]);
   }
 
   void step(const double* BOTSCHOOL_RESTRICT action, double* BOTSCHOOL_RESTRICT reward,

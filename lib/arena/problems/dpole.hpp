@@ -3,7 +3,9 @@
 // control".
 #pragma once
 
-#include "../engine/problem.hpp"
+#include <cmath>
+
+#include "../engine/reward.hpp"
 
 BOTSCHOOL_BEGIN
 
@@ -36,6 +38,15 @@ struct DoublePole : ProblemBase {
       out[L + l] = static_cast<T>(state[2][l] / 0.52);
       out[2 * L + l] = static_cast<T>(state[4][l] / 0.52);
     }
+  }
+
+  void quantities(Quantities<L>& q) const {
+    q.row("x", "m", "place of the cart", state[0]);
+    q.row("speed", "m/s", "of the cart", state[1]);
+    q.row("angle1", "rad", "of the long pole; 0 is upright", state[2]);
+    q.row("spin1", "rad/s", "of the long pole", state[3]);
+    q.row("angle2", "rad", "of the short pole; 0 is upright", state[4]);
+    q.row("spin2", "rad/s", "of the short pole", state[5]);
   }
 
   static constexpr double kHalf[2] = {0.5, 0.25}, kMass[2] = {0.1, 0.05};
@@ -84,7 +95,8 @@ struct DoublePole : ProblemBase {
       // written so that NaN fails too
       const bool fine = (x >= -2.4) & (x <= 2.4) & (a >= -max_angle) & (a <= max_angle) &
                         (b >= -max_angle) & (b <= max_angle);
-      ended[l] = !fine;
+      const double far = std::fabs(x) + std::fabs(a) + std::fabs(b);
+      ended[l] = fine ? 0 : far < 1e6 ? 1 : kBroken;
       reward[l] = fine ? 1.0 : 0.0;
     }
   }

@@ -2,7 +2,7 @@
 // precision, and the action before clipping determines the cost.
 #pragma once
 
-#include "../engine/problem.hpp"
+#include "../engine/reward.hpp"
 
 BOTSCHOOL_BEGIN
 
@@ -31,6 +31,16 @@ struct MountainCarContinuous : ProblemBase {
   void observe(T* BOTSCHOOL_RESTRICT out) const {
     for (int i = 0; i < 2; ++i)
       for (int l = 0; l < L; ++l) out[i * L + l] = static_cast<T>(state[i][l]);
+  }
+
+  void quantities(Quantities<L>& q) const {
+    q.row("x", "", "place of the car; the goal is at 0.45", state[0]);
+    q.row("speed", "1/step", "of the car", state[1]);
+    q.value("height", "", "of the hill where the car is", [this](int l) {
+      double sine, cosine;
+      sine_cosine(3 * state[0][l], sine, cosine);
+      return 0.45 * sine + 0.55;
+    });
   }
 
   void step(const double* BOTSCHOOL_RESTRICT action, double* BOTSCHOOL_RESTRICT reward,

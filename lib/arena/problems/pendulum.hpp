@@ -1,7 +1,7 @@
 // Gymnasium's Pendulum: swing up and balance with a weak motor; semi-implicit Euler.
 #pragma once
 
-#include "../engine/problem.hpp"
+#include "../engine/reward.hpp"
 
 BOTSCHOOL_BEGIN
 
@@ -40,6 +40,12 @@ struct Pendulum : ProblemBase {
       out[L + l] = static_cast<T>(sine[l]);
       out[2 * L + l] = static_cast<T>(state[1][l]);
     }
+  }
+
+  void quantities(Quantities<L>& q) const {
+    q.value("angle", "rad", "0 is upright; from -pi to pi", [this](int l) { return wrapped(state[0][l]); });
+    q.row("spin", "rad/s", "of the pendulum", state[1]);
+    q.row("upright", "", "cosine of the angle", cosine);
   }
 
   void step(const double* BOTSCHOOL_RESTRICT action, double* BOTSCHOOL_RESTRICT reward,

@@ -2,6 +2,7 @@
 // brain. docs/specification.md, "PlanarBodyBrain".
 #pragma once
 
+#include "../engine/reward.hpp"
 #include "../robots/jointed/bodybrain.hpp"
 
 BOTSCHOOL_BEGIN
@@ -110,6 +111,29 @@ struct PlanarBodyBrain : ProblemBase {
       }
   }
 
+  void quantities(Quantities<L>& q) const {
+    q.row("x", "m", "place ahead of the torso's rear end", state[kPosition]);
+    q.growth("ahead", "m/s", "way ahead in this step, for each second", state[kPosition]);
+    q.row("height", "m", "of the torso's rear end", state[kPosition + 1]);
+    q.row("pitch", "rad", "of the torso", state[kPosition + 2]);
+    q.row("speed", "m/s", "speed ahead at the end of the step", state[kSpeed]);
+    q.row("rise", "m/s", "speed upwards", state[kSpeed + 1]);
+    q.row("spin", "rad/s", "of the torso", state[kSpeed + 2]);
+    for (int i = 0; i < kRods; ++i) {
+      if (i > 0) {
+        const int now = kPosition + 2 + i, rate = kSpeed + 2 + i;
+        q.value({"rod", "_angle", i}, "rad", "angle of its hinge, against that at rest", [=](int l) {
+          return state[now][l] - state[now - 1][l] - of_body(kAngle + i, l);
+        });
+        q.value({"rod", "_rate", i}, "rad/s", "rate of its hinge",
+                [=](int l) { return state[rate][l] - state[rate - 1][l]; });
+      }
+      q.value({i ? "rod" : "torso", "_force", i}, "N", "force of the ground on this part", [=](int l) {
+        return state[kLoad + 2 * i][l] + state[kLoad + 2 * i + 1][l];
+      });
+    }
+  }
+
   void step(const double* action, double* reward, std::int64_t* ended) {
     for (int first = 0; first < L; first += kWidth) {
       Moving chain;
@@ -131,9 +155,9 @@ struct PlanarBodyBrain : ProblemBase {
       for (int l = 0; l < kWidth; ++l) {
         const int lane = first + l;
         const double x = middle(lane);
-        const bool lost = !(kept[l] > 0) || x < 0;
+        const bool whole = kept[l] > 0, lost = !whole || x < 0;
         reward[lane] = lost ? kLost : gained[l];
-        ended[lane] = lost || x > kFarEnd;
+        ended[lane] = whole ? lost || x > kFarEnd : kBroken;
       }
     }
   }

@@ -60,6 +60,11 @@ struct SpatialBalanceBot : Racer<L> {
     }
   }
 
+  void quantities(Quantities<L>& q) const {
+    Base::quantities(q);
+    q.row("target", "rad/s", "speed that the wheels should have", state[rows.count()]);
+  }
+
   void step(const double* action, double* reward, std::int64_t* ended) {
     double* speed = state[rows.count()];
     for (int first = 0; first < L; first += kWidth) {
@@ -79,7 +84,7 @@ struct SpatialBalanceBot : Racer<L> {
       for (int l = 0; l < kWidth; ++l) {
         const double price = target[l] < 0 ? -target[l] : target[l];
         reward[first + l] = good[l] * (1 - 0.05 * price);
-        ended[first + l] = !(good[l] > 0 && goes[l] >= 0);
+        ended[first + l] = good[l] > 0 ? !(goes[l] >= 0) : kBroken;
         speed[first + l] = good[l] > 0 ? target[l] : speed[first + l];
       }
     }

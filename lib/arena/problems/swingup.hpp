@@ -2,7 +2,7 @@
 // docs/specification.md, "Classic control".
 #pragma once
 
-#include "../engine/problem.hpp"
+#include "../engine/reward.hpp"
 
 BOTSCHOOL_BEGIN
 
@@ -43,6 +43,14 @@ struct Swingup : ProblemBase {
       out[3 * L + l] = static_cast<T>(sine[l]);
       out[4 * L + l] = static_cast<T>(state[3][l]);
     }
+  }
+
+  void quantities(Quantities<L>& q) const {
+    q.row("x", "m", "place of the cart", state[0]);
+    q.row("speed", "m/s", "of the cart", state[1]);
+    q.row("angle", "rad", "of the pole; 0 is upright", state[2]);
+    q.row("spin", "rad/s", "of the pole", state[3]);
+    q.row("upright", "", "cosine of the angle", cosine);
   }
 
   void step(const double* BOTSCHOOL_RESTRICT action, double* BOTSCHOOL_RESTRICT reward,

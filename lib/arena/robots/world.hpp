@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../engine/reward.hpp"
 #include "declaration.hpp"
 
 BOTSCHOOL_BEGIN
@@ -200,6 +201,47 @@ struct World : ProblemBase {
     }
   }
 
+  /// Places of robots, and how far they are from what is there; a problem may add to them.
+  void quantities(Quantities<L>& q) const {
+    for (int r = 0; r < nrobots(); ++r) {
+      const int number = nrobots() > 1 ? r + 1 : 0;
+      const double own = model[r]->radius;
+      q.row({"x", "", number}, "mm", "place of the robot", x(r));
+      q.row({"y", "", number}, "mm", "place of the robot", y(r));
+      q.row({"heading", "", number}, "rad", "direction of the robot, from 0 to 2 pi", heading(r));
+      q.value({"wall", "", number}, "mm", "from the robot's edge to the nearest wall", [=](int l) {
+        double least = 1e9;
+        for (int i = 0; i < nwalls(); ++i) {
+          const double away = apart(wall[i], x(r)[l], y(r)[l]);
+          least = away < least ? away : least;
+        }
+        return least - own;
+      });
+      const auto nearest = [&](const char* name, const char* meaning, int n, const double* places,
+                               const double* radii) {
+        if (n == 0) return;
+        q.value({name, "", number}, "mm", meaning, [=](int l) {
+          double least = 1e9;
+          for (int i = 0; i < n; ++i) {
+            const double away = distance(places[2 * i * L + l] - x(r)[l],
+                                         places[(2 * i + 1) * L + l] - y(r)[l]) -
+                                (radii ? radii[i] : 0);
+            least = away < least ? away : least;
+          }
+          return least - own;
+        });
+      };
+      nearest("cylinder", "from its edge to the nearest cylinder's", ncylinders(), cylinder_x(0),
+              radius);
+      nearest("light", "from its edge to the nearest light", nlights(), light_x(0), nullptr);
+      nearest("zone", "from its edge to the middle of the nearest zone", nzones(), zone_x(0),
+              nullptr);
+    }
+    for (int r = 1; r < nrobots(); ++r)
+      q.value({"apart", "", nrobots() > 2 ? r + 1 : 0}, "mm", "between the middles of the first robot and this one",
+              [=](int l) { return distance(x(r)[l] - x(0)[l], y(r)[l] - y(0)[l]); });
+  }
+
   int blocked() const {
     for (int robot = 0; robot < nrobots(); ++robot) {
       Bump<L> bump;
@@ -226,6 +268,13 @@ struct World : ProblemBase {
   }
 
  private:
+  static double distance(double dx, double dy) { return std::sqrt(dx * dx + dy * dy); }
+  static double apart(const Wall& w, double px, double py) {
+    const double ux = w.x2 - w.x, uy = w.y2 - w.y, length2 = ux * ux + uy * uy;
+    const double along = length2 > 0 ? ((px - w.x) * ux + (py - w.y) * uy) / length2 : 0;
+    const double t = clamp(along, 0.0, 1.0);
+    return distance(px - w.x - t * ux, py - w.y - t * uy);
+  }
   static void put_object(double* row, double x, double y, double x2, double y2, double radius) {
     row[0] = x, row[1] = y, row[2] = x2, row[3] = y2, row[4] = radius;
   }

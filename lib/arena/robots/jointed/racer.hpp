@@ -2,6 +2,7 @@
 // docs/specification.md, "Bodies in space".
 #pragma once
 
+#include "../../engine/reward.hpp"
 #include "solids.hpp"
 #include "space.hpp"
 #include "varied.hpp"
@@ -141,6 +142,67 @@ struct Racer : ProblemBase {
     varied.start(lane, random.key());
   }
 
+  void quantities(Quantities<L>& q) const {
+    const int s = rows.speed();
+    const auto turn = [this](int l, double& w, double& x, double& y, double& z) {
+      w = state[3][l], x = state[4][l], y = state[5][l], z = state[6][l];
+    };
+    q.row("x", "m", "place ahead", state[0]);
+    q.row("y", "m", "place to the left", state[1]);
+    q.row("height", "m", "of the root", state[2]);
+    q.growth("ahead", "m/s", "way ahead in this step, for each second", state[0]);
+    q.growth("sideways", "m/s", "way to the left in this step, for each second", state[1]);
+    q.row("speed", "m/s", "speed ahead at the end of the step", state[s]);
+    q.row("rise", "m/s", "speed upwards", state[s + 2]);
+    q.value("upright", "", "how much the root's own z axis points up: 1 upright, -1 on its head", [=](int l) {
+      double w, x, y, z;
+      turn(l, w, x, y, z);
+      return 1 - 2 * (x * x + y * y);
+    });
+    q.value("heading", "rad", "direction of the root, 0 ahead, positive to the left", [=](int l) {
+      double w, x, y, z;
+      turn(l, w, x, y, z);
+      return arctangent(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
+    });
+    q.value("spin", "rad/s", "of the root around the vertical, positive to the left", [=](int l) {
+      double w, x, y, z;
+      turn(l, w, x, y, z);
+      return 2 * (x * z - w * y) * state[s + 3][l] + 2 * (y * z + w * x) * state[s + 4][l] +
+             (1 - 2 * (x * x + y * y)) * state[s + 5][l];
+    });
+    const Solid& solid = *course->solid;
+    for (int i = 1; i < rows.links; ++i) {
+      const Link& link = solid.link[i];
+      q.row({link.name, "_angle"}, "rad", "angle of this joint", state[6 + i]);
+      q.row({link.name, "_rate"}, "rad/s", "rate of this joint", state[s + 5 + i]);
+      if (link.motor >= 0 && link.hinge.torque > 0)
+        q.value({link.name, "_torque"}, "N m", "torque that its motor was told to give",
+                [&](int l) { return link.hinge.torque * q.action(link.motor, l); });
+    }
+    const Balls balls(solid);
+    for (int i = 0; i < rows.links; ++i) {
+      int touching = 0;
+      for (int c = 0; c < balls.count; ++c) touching += balls.ball[c].link == i;
+      if (touching)
+        q.value({solid.link[i].name, "_force"}, "N", "force of the ground on this part", [&](int l) {
+          double sum = 0;
+          for (int c = 0; c < balls.count; ++c)
+            sum += balls.ball[c].link == i ? state[rows.load() + c][l] : 0;
+          return sum;
+        });
+    }
+    q.value("power", "W", "of all motors, sizes added", [&](int l) {
+      double sum = 0;
+      for (int i = 1; i < rows.links; ++i) {
+        const Link& link = solid.link[i];
+        if (link.motor < 0) continue;
+        const double p = link.hinge.torque * q.action(link.motor, l) * state[s + 5 + i][l];
+        sum += p < 0 ? -p : p;
+      }
+      return sum;
+    });
+  }
+
   void step(const double* action, double* reward, std::int64_t* ended) {
     for (int first = 0; first < L; first += kWidth) {
       load(first);
@@ -167,7 +229,10 @@ struct Racer : ProblemBase {
       if_positive(real, earned, V(0.0f)).to(reward + first);
       double goes[kWidth];
       if_positive(real, if_positive(standing, V(1.0f), V(0.0f)), V(0.0f)).to(goes);
-      for (int l = 0; l < kWidth; ++l) ended[first + l] = !(goes[l] > 0);
+      double whole[kWidth];
+      if_positive(real, V(1.0f), V(0.0f)).to(whole);
+      for (int l = 0; l < kWidth; ++l)
+        ended[first + l] = goes[l] > 0 ? 0 : whole[l] > 0 ? 1 : kBroken;
       keep(first, real);
     }
     varied.next();

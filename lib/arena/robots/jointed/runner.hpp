@@ -2,6 +2,7 @@
 // runners".
 #pragma once
 
+#include "../../engine/reward.hpp"
 #include "bodies.hpp"
 #include "dynamics.hpp"
 #include "varied.hpp"
@@ -85,6 +86,41 @@ struct Runner : ProblemBase {
     varied.start(lane, random.key());
   }
 
+  void quantities(Quantities<L>& q) const {
+    q.row("x", "m", "place ahead", state[0]);
+    q.growth("ahead", "m/s", "way ahead in this step, for each second", state[0]);
+    q.row("height", "m", "of the torso", state[1]);
+    q.row("pitch", "rad", "of the torso; 0 at rest, positive leans back", state[2]);
+    q.value("upright", "", "cosine of the pitch", [this](int l) { return cosine_of(state[2][l]); });
+    q.row("speed", "m/s", "speed ahead at the end of the step", state[size]);
+    q.row("rise", "m/s", "speed upwards", state[size + 1]);
+    q.row("spin", "rad/s", "of the torso", state[size + 2]);
+    for (int i = 1; i < n; ++i) {
+      const auto& part = Body::segments[i];
+      q.value({part.name, "_angle"}, "rad", "angle of its hinge",
+              [=](int l) { return relative(2 + i, 0, l); });
+      q.value({part.name, "_rate"}, "rad/s", "rate of its hinge",
+              [=](int l) { return relative(2 + i, size, l); });
+      q.value({part.name, "_torque"}, "N m", "torque that its motor was told to give",
+              [=, &part, &q](int l) { return part.hinge.torque * q.action(i - 1, l); });
+    }
+    for (int i = 0; i < n; ++i)
+      q.value({Body::segments[i].name, "_force"}, "N", "force of the ground on this part", [=](int l) {
+        double sum = 0;
+        for (int c = 0; c < contacts; ++c)
+          sum += Body::contacts[c].segment == i ? state[2 * size + c][l] : 0;
+        return sum;
+      });
+    q.value("power", "W", "of all motors, sizes added", [this, &q](int l) {
+      double sum = 0;
+      for (int i = 1; i < n; ++i) {
+        const double p = Body::segments[i].hinge.torque * q.action(i - 1, l) * relative(2 + i, size, l);
+        sum += p < 0 ? -p : p;
+      }
+      return sum;
+    });
+  }
+
   void step(const double* action, double* reward, std::int64_t* ended) {
     for (int first = 0; first < L; first += kWidth) {
       Moving body;
@@ -109,13 +145,22 @@ struct Runner : ProblemBase {
       pay.to(reward + first);
       double goes[kWidth];
       going.to(goes);
-      for (int l = 0; l < kWidth; ++l) ended[first + l] = !(goes[l] > 0);
+      double whole[kWidth];
+      if_positive(real, V(1.0f), V(0.0f)).to(whole);
+      for (int l = 0; l < kWidth; ++l)
+        ended[first + l] = goes[l] > 0 ? 0 : whole[l] > 0 ? 1 : kBroken;
       store(body, first, real, 1.0f / float(race.substeps));
     }
     varied.next();
   }
 
  private:
+  static double cosine_of(double angle) {
+    double sine, cosine;
+    sine_cosine(angle, sine, cosine);
+    return cosine;
+  }
+
   /// A coordinate, or its speed with first = size, of a hinge against its segment's parent.
   double relative(int k, int first, int lane) const {
     return k < 3 ? state[first + k][lane]
