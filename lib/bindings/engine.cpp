@@ -1,9 +1,9 @@
 #include "arena/engine/engine.hpp"
-#include "arena/engine/expression.hpp"
 
 #include <nanobind/stl/unique_ptr.h>
 
 #include "arena.hpp"
+#include "arena/engine/expression.hpp"
 #include "spatial.hpp"
 
 namespace botschool {
@@ -271,8 +271,7 @@ void bind_engine(nb::module_& module) {
           [](Aim* made, const std::string& problem, nb::object options, const std::string& reward,
              const std::string& ends) {
             Program program;
-            const std::string wrong =
-                compile(*stepper_of(problem, options), reward, ends, program);
+            const std::string wrong = compile(*stepper_of(problem, options), reward, ends, program);
             if (!wrong.empty()) throw std::invalid_argument(wrong);
             new (made) Aim{program, options};
           },

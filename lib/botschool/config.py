@@ -77,6 +77,18 @@ class Exp:
         check=keywords,
         form="name=value, separated by commas",
     )
+    reward: str = hyper(
+        "",
+        "an expression in place of a native problem's own reward, as ahead - 0.05 * effort",
+        check=str,
+        form="an expression over quantities that `botschool problems NAME` lists",
+    )
+    ends: str = hyper(
+        "",
+        "an expression that ends an episode where it is true, as height < 0.2",
+        check=str,
+        form="an expression over quantities that `botschool problems NAME` lists",
+    )
 
 
 SECTIONS = ("EXP", "POLICY", "ALGO")

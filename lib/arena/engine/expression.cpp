@@ -14,11 +14,11 @@ struct Function {
   int least, most;  // arguments
   Op op;
 };
-constexpr Function kFunctions[] = {
-    {"min", 2, 99, Op::smaller},    {"max", 2, 99, Op::larger},  {"abs", 1, 1, Op::size},
-    {"sqrt", 1, 1, Op::root},       {"exp", 1, 1, Op::exponential}, {"sin", 1, 1, Op::sine},
-    {"cos", 1, 1, Op::cosine},      {"clip", 3, 3, Op::smaller}, {"where", 3, 3, Op::choose},
-    {"change", 1, 1, Op::subtract}};
+constexpr Function kFunctions[] = {{"min", 2, 99, Op::smaller},    {"max", 2, 99, Op::larger},
+                                   {"abs", 1, 1, Op::size},        {"sqrt", 1, 1, Op::root},
+                                   {"exp", 1, 1, Op::exponential}, {"sin", 1, 1, Op::sine},
+                                   {"cos", 1, 1, Op::cosine},      {"clip", 3, 3, Op::smaller},
+                                   {"where", 3, 3, Op::choose},    {"change", 1, 1, Op::subtract}};
 constexpr const char* kWords[] = {"and", "or", "not", "if", "else", "True", "False"};
 constexpr const char* kSigns[] = {"**", "<=", ">=", "==", "!=", "+", "-", "*",
                                   "/",  "<",  ">",  "(",  ")",  ",", "="};
@@ -208,7 +208,8 @@ class Compiler {
     if (program_.size == kMaxCode) return fail("it is too long: at most 160 operations");
     int to = 0;
     while (to < kMaxResults && uses_[to] > 0) ++to;
-    if (to == kMaxResults) return fail("it keeps too many results at a time: write it in another order");
+    if (to == kMaxResults)
+      return fail("it keeps too many results at a time: write it in another order");
     uses_[to] = 1;
     program_.code[program_.size++] = {op, static_cast<std::uint8_t>(to), a, b, c};
     for (const Operand* x : {&a, &b, &c})
@@ -239,7 +240,8 @@ class Compiler {
     const Operand now = used(number);
     int i = 0;
     while (i < program_.remembered && program_.before[i] != now.number) ++i;
-    if (i == kMaxBefore) return fail("it compares too many quantities with the last step: at most 16");
+    if (i == kMaxBefore)
+      return fail("it compares too many quantities with the last step: at most 16");
     if (i == program_.remembered) program_.before[program_.remembered++] = now.number;
     return emit(Op::subtract, now, {Source::before, static_cast<std::uint8_t>(i)});
   }
@@ -251,7 +253,8 @@ class Compiler {
     Operand value = either();
     if (takes("if")) {
       const Operand when = either();
-      if (!takes("else")) return error_.empty() ? fail("'if' needs an 'else': write a if b else c") : Operand{};
+      if (!takes("else"))
+        return error_.empty() ? fail("'if' needs an 'else': write a if b else c") : Operand{};
       const Operand otherwise = choice();
       value = emit(Op::choose, when, value, otherwise);
     }
@@ -285,7 +288,8 @@ class Compiler {
   }
 
   bool compares() const {
-    return kind_ == Kind::sign && (word_[0] == '<' || word_[0] == '>' || word_ == "==" || word_ == "!=");
+    return kind_ == Kind::sign &&
+           (word_[0] == '<' || word_[0] == '>' || word_ == "==" || word_ == "!=");
   }
 
   Operand comparison() {
@@ -296,8 +300,10 @@ class Compiler {
       const Operand right = sum();
       if (compares()) hold(right);
       const bool turned = sign[0] == '>';
-      const Op op = sign == "==" ? Op::equal : sign == "!=" ? Op::unequal
-                    : sign.size() == 2 ? Op::at_most : Op::less;
+      const Op op = sign == "=="       ? Op::equal
+                    : sign == "!="     ? Op::unequal
+                    : sign.size() == 2 ? Op::at_most
+                                       : Op::less;
       const Operand now = turned ? emit(op, right, left) : emit(op, left, right);
       all = first ? now : emit(Op::both, all, now);
       left = right;
@@ -427,14 +433,14 @@ class Compiler {
     Operand a[3];
     int count = 0;
     if (!is(")")) do {
-      const Operand next = choice();
-      if (f->most > 3 && count == 2)
-        a[0] = emit(f->op, a[0], a[1]), a[1] = next;  // one after another
-      else if (count < 3)
-        a[count++] = next;
-      else
-        ++count;
-    } while (takes(","));
+        const Operand next = choice();
+        if (f->most > 3 && count == 2)
+          a[0] = emit(f->op, a[0], a[1]), a[1] = next;  // one after another
+        else if (count < 3)
+          a[count++] = next;
+        else
+          ++count;
+      } while (takes(","));
     closed({});
     if (!error_.empty()) return {};
     if (count < f->least || count > f->most) {
@@ -492,7 +498,8 @@ std::vector<Quantity> quantities(const Stepper& stepper) {
         for (const char* c = name; *c; ++c) whole += letter(*c) || digit(*c) ? *c : '_';
         if (number >= 10) whole += static_cast<char>('0' + number / 10);
         if (number > 0) whole += static_cast<char>('0' + number % 10);
-        static_cast<std::vector<Quantity>*>(to)->push_back({whole + suffix, unit, meaning, differs});
+        static_cast<std::vector<Quantity>*>(to)->push_back(
+            {whole + suffix, unit, meaning, differs});
       },
       &all);
   if (all.size() > kMaxQuantities) all.resize(kMaxQuantities);

@@ -42,13 +42,11 @@ void run(const Ready& step) {
     case Op::unequal:
       return apply<L>(step, [](double a, double b, double) { return a != b ? 1.0 : 0.0; });
     case Op::both:
-      return apply<L>(step, [](double a, double b, double) {
-        return (a != 0) & (b != 0) ? 1.0 : 0.0;
-      });
+      return apply<L>(step,
+                      [](double a, double b, double) { return (a != 0) & (b != 0) ? 1.0 : 0.0; });
     case Op::either:
-      return apply<L>(step, [](double a, double b, double) {
-        return (a != 0) | (b != 0) ? 1.0 : 0.0;
-      });
+      return apply<L>(step,
+                      [](double a, double b, double) { return (a != 0) | (b != 0) ? 1.0 : 0.0; });
     case Op::size:
       return apply<L>(step, [](double a, double, double) { return std::fabs(a); });
     case Op::root:

@@ -10,8 +10,24 @@
 namespace botschool {
 
 enum class Op : std::uint8_t {
-  add, subtract, multiply, divide, smaller, larger, less, at_most, equal, unequal, both, either,
-  size, root, exponential, sine, cosine, choose  // choose: b where a is not 0, else c
+  add,
+  subtract,
+  multiply,
+  divide,
+  smaller,
+  larger,
+  less,
+  at_most,
+  equal,
+  unequal,
+  both,
+  either,
+  size,
+  root,
+  exponential,
+  sine,
+  cosine,
+  choose  // choose: b where a is not 0, else c
 };
 
 /// Where an instruction reads a row of lanes: numbers of quantities are places in Program::quantity.
@@ -36,9 +52,10 @@ struct Program {
   int size, constants, used, remembered;
   Instruction code[kMaxCode];
   double constant[kMaxConstants];
-  std::uint16_t quantity[kMaxUsed];   ///< numbers of quantities, in the order in which they are named
-  std::uint8_t before[kMaxBefore];    ///< which of them are remembered for the next step
-  bool pays, ends;                    ///< whether there is a reward, and an end of the episode
+  std::uint16_t
+      quantity[kMaxUsed];           ///< numbers of quantities, in the order in which they are named
+  std::uint8_t before[kMaxBefore];  ///< which of them are remembered for the next step
+  bool pays, ends;                  ///< whether there is a reward, and an end of the episode
   Operand reward, end;
 };
 
@@ -58,8 +75,8 @@ template <int L>
 struct Payer {
   const Program* program = nullptr;
   Info info;
-  bool computes;  ///< whether a quantity is more than a row that exists anyway
-  bool acts;      ///< whether actions are needed
+  bool computes;                     ///< whether a quantity is more than a row that exists anyway
+  bool acts;                         ///< whether actions are needed
   std::int8_t slot[kMaxQuantities];  ///< where a quantity is among those in use, or -1
   const double* row[kMaxUsed];       ///< its lanes
 

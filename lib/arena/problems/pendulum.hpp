@@ -43,7 +43,8 @@ struct Pendulum : ProblemBase {
   }
 
   void quantities(Quantities<L>& q) const {
-    q.value("angle", "rad", "0 is upright; from -pi to pi", [this](int l) { return wrapped(state[0][l]); });
+    q.value("angle", "rad", "0 is upright; from -pi to pi",
+            [this](int l) { return wrapped(state[0][l]); });
     q.row("spin", "rad/s", "of the pendulum", state[1]);
     q.row("upright", "", "cosine of the angle", cosine);
   }

@@ -122,15 +122,13 @@ struct PlanarBodyBrain : ProblemBase {
     for (int i = 0; i < kRods; ++i) {
       if (i > 0) {
         const int now = kPosition + 2 + i, rate = kSpeed + 2 + i;
-        q.value({"rod", "_angle", i}, "rad", "angle of its hinge, against that at rest", [=](int l) {
-          return state[now][l] - state[now - 1][l] - of_body(kAngle + i, l);
-        });
+        q.value({"rod", "_angle", i}, "rad", "angle of its hinge, against that at rest",
+                [=](int l) { return state[now][l] - state[now - 1][l] - of_body(kAngle + i, l); });
         q.value({"rod", "_rate", i}, "rad/s", "rate of its hinge",
                 [=](int l) { return state[rate][l] - state[rate - 1][l]; });
       }
-      q.value({i ? "rod" : "torso", "_force", i}, "N", "force of the ground on this part", [=](int l) {
-        return state[kLoad + 2 * i][l] + state[kLoad + 2 * i + 1][l];
-      });
+      q.value({i ? "rod" : "torso", "_force", i}, "N", "force of the ground on this part",
+              [=](int l) { return state[kLoad + 2 * i][l] + state[kLoad + 2 * i + 1][l]; });
     }
   }
 

@@ -223,9 +223,9 @@ struct World : ProblemBase {
         q.value({name, "", number}, "mm", meaning, [=](int l) {
           double least = 1e9;
           for (int i = 0; i < n; ++i) {
-            const double away = distance(places[2 * i * L + l] - x(r)[l],
-                                         places[(2 * i + 1) * L + l] - y(r)[l]) -
-                                (radii ? radii[i] : 0);
+            const double away =
+                distance(places[2 * i * L + l] - x(r)[l], places[(2 * i + 1) * L + l] - y(r)[l]) -
+                (radii ? radii[i] : 0);
             least = away < least ? away : least;
           }
           return least - own;
@@ -238,7 +238,8 @@ struct World : ProblemBase {
               nullptr);
     }
     for (int r = 1; r < nrobots(); ++r)
-      q.value({"apart", "", nrobots() > 2 ? r + 1 : 0}, "mm", "between the middles of the first robot and this one",
+      q.value({"apart", "", nrobots() > 2 ? r + 1 : 0}, "mm",
+              "between the middles of the first robot and this one",
               [=](int l) { return distance(x(r)[l] - x(0)[l], y(r)[l] - y(0)[l]); });
   }
 

@@ -1,4 +1,4 @@
-"""Define `botschool examples`, which lists and copies experiments and robots of botschool."""
+"""Define `botschool examples` and `botschool problems`, which show what botschool has."""
 
 from __future__ import annotations
 
@@ -49,3 +49,32 @@ def examples(
         "To change: botschool examples acrobot.ini copies the file here",
         soft_wrap=True,
     )
+
+
+@app.command(epilog="Example: botschool problems PlanarHopper-v5")
+def problems(
+    name: Annotated[
+        str | None, typer.Argument(help="A native problem, or an experiment file.", metavar="NAME")
+    ] = None,
+) -> None:
+    """List the native problems, or the quantities of one that `reward` and `ends` may name."""
+    from rich.console import Console
+    from rich.table import Table
+
+    from botschool.interface.problem import problem
+    from botschool.problems.native import NATIVE
+
+    console = Console(highlight=False)
+    if name is None:
+        console.print(", ".join(NATIVE), soft_wrap=True)
+        console.print("\nbotschool problems PlanarHopper-v5 lists what its rewards may name.")
+        return
+    rows = problem(name).quantities()
+    table = Table(box=None, pad_edge=False, header_style="dim")
+    table.add_column("quantity", no_wrap=True)
+    table.add_column("unit", no_wrap=True)
+    table.add_column("what it is")
+    for row in rows:
+        table.add_row(*row)
+    console.print(table)
+    console.print("\nIn an experiment file: reward = ..., ends = ... (docs/experiments.md)")

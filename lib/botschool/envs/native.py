@@ -28,7 +28,8 @@ class NativeEnv(gymnasium.Env):
     arena's infrared readings; None means the problem's own. robots: kinds of its wheeled robots, ()
     means the problem's own. morphology: parameters of an evolved body, None for zeros. arena: for
     ErArena, a botschool.arena.Plan with one robot, or an experiment file with a section [ARENA];
-    None means the default plan. Raises BotschoolError.
+    None means the default plan. reward, ends: expressions in place of the problem's own reward and
+    end of episodes. Raises BotschoolError.
     """
 
     metadata: ClassVar[dict] = {"render_modes": RENDER_MODES}
@@ -42,13 +43,22 @@ class NativeEnv(gymnasium.Env):
         morphology: np.ndarray | None = None,
         arena: Plan | str | os.PathLike[str] | None = None,
         options: str = "",
+        reward: str = "",
+        ends: str = "",
     ) -> None:
         self.render_mode = render_mode
         plan = arena if isinstance(arena, Plan) or arena is None else config.load(arena).plan
         if plan is None and arena is not None:
             raise BotschoolError(f"{arena} has no section [ARENA].")
         self._simulation = Simulation(
-            problem, render_mode, noise=noise, robots=robots, plan=plan, options=options
+            problem,
+            render_mode,
+            noise=noise,
+            robots=robots,
+            plan=plan,
+            options=options,
+            reward=reward,
+            ends=ends,
         )
         if self._simulation.interface.robots > 1:
             raise BotschoolError(

@@ -24,7 +24,7 @@ class Simulation:
     problem: its name in C++. limit: longest episode in steps, None means the problem's own. noise:
     standard deviation of an arena's infrared readings, None means the problem's own. robots: kinds
     of its wheeled robots, one for all or one each; () means the problem's own. plan: a declared
-    arena. options: of a runner (botschool.problems.space).
+    arena. options: of a runner (botschool.problems.space). reward, ends: of one's own.
     """
 
     def __init__(
@@ -36,12 +36,16 @@ class Simulation:
         robots: Sequence[str] = (),
         plan: Plan | None = None,
         options: str = "",
+        reward: str = "",
+        ends: str = "",
     ) -> None:
         if render_mode not in (None, *RENDER_MODES):
             raise BotschoolError(
                 f"render_mode is one of {', '.join(RENDER_MODES)} or None, not {render_mode!r}."
             )
-        self._problem = NativeProblem(problem, robots, plan=plan, options=options)
+        self._problem = NativeProblem(
+            problem, robots, plan=plan, options=options, reward=reward, ends=ends
+        )
         self.info = INFOS[problem] | {"seconds": 1 / self._problem.fps}
         self.interface = self._problem.interface
         self.limit = self._problem.limit if limit is None else limit

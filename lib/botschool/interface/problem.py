@@ -114,6 +114,17 @@ class Problem:
         longest = self._policy.config.post_steps
         return self._outcome(*self._split(genotype), seed, episodes, None, longest)[0]
 
+    def quantities(self) -> list[tuple[str, str, str]]:
+        """Return what `reward` and `ends` may name: tuples of name, unit and meaning. Raises
+        BotschoolError for a problem that is not native.
+        """
+        if not self.native:
+            raise BotschoolError(
+                f"{self.name} runs in Python, so its reward is changed by a wrapper: `botschool "
+                "problems` lists those that have quantities."
+            )
+        return self._problem.quantities()
+
     def _split(self, genotype: ArrayLike) -> tuple[np.ndarray, np.ndarray | None]:
         parameters, vectors = self._policy.split(np.asarray(genotype))
         return parameters[None], vectors

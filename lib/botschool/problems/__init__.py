@@ -27,6 +27,8 @@ def make(
     options: str = "",
     competitive: bool = False,
     plan: Plan | None = None,
+    reward: str = "",
+    ends: str = "",
 ) -> Problem:
     """Return the problem with that name; robots: kinds of its wheeled robots, () for its own; plan:
     a declared arena, for ErArena.
@@ -34,18 +36,29 @@ def make(
     wrappers: around its environment (botschool.wrappers); a native problem is then played as a
     Gymnasium environment. options: keywords of the environment's constructor; a native
     runner has its own (botschool.problems.space). competitive: two sides evolve
-    against each other in it. Raises BotschoolError if there is no such problem, or if it has no
-    such robots, wrappers or options.
+    against each other in it. reward, ends: expressions in place of a native problem's own reward
+    and end of episodes (botschool.problems.rewards). Raises BotschoolError if there is no such
+    problem, or if it has no such robots, wrappers, options or quantities.
     """
     name = own_name(name)
     if name in NATIVE and not wrappers:
-        return NativeProblem(name, robots, plan=plan, options=options)
+        return NativeProblem(name, robots, plan=plan, options=options, reward=reward, ends=ends)
     if plan is not None and name == PROBLEM:
         raise BotschoolError(f"A declared arena takes no wrappers: remove wrappers = {wrappers}.")
     if name in NATIVE and NativeProblem(name).interface.robots > 1:
         raise BotschoolError(
             f"{name} has several robots, which no wrapper fits: remove the line wrappers = "
             f"{wrappers}."
+        )
+    own = {key: text for key, text in (("reward", reward), ("ends", ends)) if text}
+    if own and name not in NATIVE:
+        raise BotschoolError(
+            f"{next(iter(own))} is for native problems, which `botschool problems` lists; {name} "
+            "runs in Python: change its reward by a wrapper."
+        )
+    if own:
+        options = ", ".join(
+            filter(None, [options, *(f"{key}={text!r}" for key, text in own.items())])
         )
     if robots and name in NATIVE:
         raise BotschoolError(
@@ -79,7 +92,8 @@ def of(experiment) -> Problem:
     """Return the problem of a botschool.config.Experiment. Raises BotschoolError."""
     exp = experiment.exp
     robots = [name.strip() for name in exp.robots.split(",") if name.strip()]
-    chosen = {"options": exp.options, "competitive": experiment.competitive}
+    chosen: dict = {"options": exp.options, "competitive": experiment.competitive}
+    chosen |= {"reward": exp.reward, "ends": exp.ends}
     try:
         return make(exp.environment, robots, exp.wrappers, **chosen, plan=experiment.plan)
     except BotschoolError:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from botschool.arenas.robots import RobotModel, cast
 from botschool.errors import BotschoolError
 from botschool.policies.policy import Interface, Policy
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
+from botschool.problems.rewards import aim, unmeasured
 from botschool.problems.space import options_of
 from botschool.problems.transition import Transition
 
@@ -73,8 +75,13 @@ class NativeProblem(Problem):
         instruction_set: str = "",
         plan: Plan | None = None,
         options: str = "",
+        reward: str = "",
+        ends: str = "",
     ) -> None:
-        """Make the problem; options: of a runner (botschool.problems.space)."""
+        """Make the problem; options: of a runner (botschool.problems.space).
+
+        reward, ends: expressions in place of the problem's own reward and end of episodes.
+        """
         self.name = name
         chosen = options_of(name, options)
         self.alive = chosen.alive
@@ -97,7 +104,13 @@ class NativeProblem(Problem):
         """Choices about a race in space, or None."""
         self.declared = chosen.body is not None
         """Whether the race has a body that the user declared."""
-        self._options = self.options() if self.robots else self.race
+        self.reward, self.ends = reward, ends
+        if reward and self.alive:
+            raise BotschoolError(
+                "reward takes the place of the option alive: remove one of them, or write "
+                f"reward = reward + {self.alive:g} * not ended."
+            )
+        self._options = self.options()
         self.fps = 1 / info["seconds"]
         self.common, self.sides = info["common"], info["sides"]
         self.constant_sum = not self.common
@@ -111,12 +124,20 @@ class NativeProblem(Problem):
             robots=info["robots"],
         )
 
-    def options(self, noise: float | None = None) -> _core.ArenaOptions | _core.Race | None:
-        """Return the options for C++; noise: of an arena's sensors, None for its own."""
-        if not self.robots:
-            return self.race
-        core = self.plan.core if self.plan else None
-        return _core.ArenaOptions([model.name for model in self.robots], noise, declaration=core)
+    def options(self, noise: float | None = None, bare: bool = False) -> Any:
+        """Return the options for C++; noise: of an arena's sensors, None for its own; bare: without
+        the user's reward.
+        """
+        options: Any = self.race
+        if self.robots:
+            core = self.plan.core if self.plan else None
+            models = [model.name for model in self.robots]
+            options = _core.ArenaOptions(models, noise, declaration=core)
+        return options if bare else aim(self.dynamics, options, self.reward, self.ends)
+
+    def quantities(self) -> list[tuple[str, str, str]]:
+        """Return name, unit and meaning of what a reward may name."""
+        return _core.quantities(self.dynamics, self.options(bare=True))
 
     def engine(self, policy: Policy) -> _core.Engine:
         """Return the C++ engine for this problem and the policy's network."""
@@ -162,9 +183,11 @@ class NativeProblem(Problem):
         fitness, steps, moments = parts[0] if len(parts) == 1 else _concatenated(parts)
         if not (math.isfinite(fitness.sum()) or np.isfinite(fitness).all()):
             first = int(np.argmin(np.isfinite(fitness)))
-            raise self.broken(
-                f"a return of {fitness[first]}", episodes.seed[first], episodes.episode[first]
-            )
+            seed, episode = int(episodes.seed[first]), int(episodes.episode[first])
+            rows = genotypes[np.atleast_1d(episodes.candidate[..., first])]
+            played = (self, policy, rows, normalisation, seed, episode, limit)
+            told = unmeasured(*played) if self.reward else None
+            raise told or self.broken(f"a return of {fitness[first]}", seed, episode)
         if self.alive:
             fitness = fitness + self.alive * (steps - (steps < limit))
         return Outcome(fitness, steps, moments)

@@ -154,11 +154,12 @@ struct Racer : ProblemBase {
     q.growth("sideways", "m/s", "way to the left in this step, for each second", state[1]);
     q.row("speed", "m/s", "speed ahead at the end of the step", state[s]);
     q.row("rise", "m/s", "speed upwards", state[s + 2]);
-    q.value("upright", "", "how much the root's own z axis points up: 1 upright, -1 on its head", [=](int l) {
-      double w, x, y, z;
-      turn(l, w, x, y, z);
-      return 1 - 2 * (x * x + y * y);
-    });
+    q.value("upright", "", "how much the root's own z axis points up: 1 upright, -1 on its head",
+            [=](int l) {
+              double w, x, y, z;
+              turn(l, w, x, y, z);
+              return 1 - 2 * (x * x + y * y);
+            });
     q.value("heading", "rad", "direction of the root, 0 ahead, positive to the left", [=](int l) {
       double w, x, y, z;
       turn(l, w, x, y, z);
@@ -179,17 +180,18 @@ struct Racer : ProblemBase {
         q.value({link.name, "_torque"}, "N m", "torque that its motor was told to give",
                 [&](int l) { return link.hinge.torque * q.action(link.motor, l); });
     }
-    const Balls balls(solid);
+    const auto& numbers = moving.numbers;
     for (int i = 0; i < rows.links; ++i) {
       int touching = 0;
-      for (int c = 0; c < balls.count; ++c) touching += balls.ball[c].link == i;
+      for (int c = 0; c < rows.balls; ++c) touching += numbers.ball[c].link == i;
       if (touching)
-        q.value({solid.link[i].name, "_force"}, "N", "force of the ground on this part", [&](int l) {
-          double sum = 0;
-          for (int c = 0; c < balls.count; ++c)
-            sum += balls.ball[c].link == i ? state[rows.load() + c][l] : 0;
-          return sum;
-        });
+        q.value({solid.link[i].name, "_force"}, "N", "force of the ground on this part",
+                [&](int l) {
+                  double sum = 0;
+                  for (int c = 0; c < rows.balls; ++c)
+                    sum += numbers.ball[c].link == i ? state[rows.load() + c][l] : 0;
+                  return sum;
+                });
     }
     q.value("power", "W", "of all motors, sizes added", [&](int l) {
       double sum = 0;

@@ -104,17 +104,23 @@ struct Runner : ProblemBase {
       q.value({part.name, "_torque"}, "N m", "torque that its motor was told to give",
               [=, &part, &q](int l) { return part.hinge.torque * q.action(i - 1, l); });
     }
-    for (int i = 0; i < n; ++i)
-      q.value({Body::segments[i].name, "_force"}, "N", "force of the ground on this part", [=](int l) {
-        double sum = 0;
-        for (int c = 0; c < contacts; ++c)
-          sum += Body::contacts[c].segment == i ? state[2 * size + c][l] : 0;
-        return sum;
-      });
+    for (int i = 0; i < n; ++i) {
+      bool touches = false;
+      for (const auto& point : Body::contacts) touches |= point.segment == i;
+      if (!touches) continue;
+      q.value({Body::segments[i].name, "_force"}, "N", "force of the ground on this part",
+              [=](int l) {
+                double sum = 0;
+                for (int c = 0; c < contacts; ++c)
+                  sum += Body::contacts[c].segment == i ? state[2 * size + c][l] : 0;
+                return sum;
+              });
+    }
     q.value("power", "W", "of all motors, sizes added", [this, &q](int l) {
       double sum = 0;
       for (int i = 1; i < n; ++i) {
-        const double p = Body::segments[i].hinge.torque * q.action(i - 1, l) * relative(2 + i, size, l);
+        const double p =
+            Body::segments[i].hinge.torque * q.action(i - 1, l) * relative(2 + i, size, l);
         sum += p < 0 ? -p : p;
       }
       return sum;
