@@ -16,12 +16,13 @@ from botschool.evolution.algorithms.sides import everyone, mean
 from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.record import RunFiles
 from botschool.labs.check import Check
+from botschool.labs.commands import QUICK
 from botschool.labs.declare import PARTS
 from botschool.labs.evolving import evaluator_of
 from botschool.labs.runs import ABOUT, make_runs, own_runs
 from botschool.labs.sheet import base_seed, numbers_in, seeds_of
 from botschool.labs.training import filled, post_evaluated
-from lab_students import answer, edit
+from lab_students import answer, edit, offered, write_row
 
 FULL = {name: float(most) for name, most in PARTS.items()}
 NOTHING = dict.fromkeys(FULL, 0)
@@ -85,40 +86,37 @@ def invented_number(place, other):
     at = next(i for i, column in enumerate(lab.columns) if name.startswith(column.only))
     row = [*place.sheet().row(name)]
     row[at] = re.sub(r"[-\d.]+", "-77777", row[at])
-    line = f"| {name} | {' | '.join(row)} |"
-    edit(place, lambda text: re.sub(rf"^\| {re.escape(name)} \|.*$", line, text, flags=re.M))
+    write_row(place, name, f"| {name} | {' | '.join(row)} |")
     most = len(cells(lab))
     left = FULL | {"measurements": round(10 + 15 * (most - 1) / most, 1)}
-    return left, f"The table, {name}, {lab.columns[at].title}: your runs give"
+    return left, f"The table, {name}, {lab.titles[at]}: your runs give"
 
 
 def one_choice_against_its_data(place, other):
     """The first choice of the conclusion."""
-    statement = next(s for s in place.lab.statements if s.kind == "choice")
-    contradict(place, [statement])
-    return FULL | {"conclusion": 25 - statement.points}, f"{statement.what}: "
+    id = next(id for id in place.lab.statements if place.lab.fields[id].kind == "choice")
+    contradict(place, id)
+    left = FULL | {"conclusion": 25 - place.lab.statements[id].points}
+    return left, place.lab.fields[id].what
 
 
 def conclusions_against_their_data(place, other):
     """Every one."""
-    contradict(place, place.lab.statements)
-    return FULL | {"conclusion": 0}, f"{place.lab.statements[-1].what}: "
+    contradict(place, *place.lab.statements)
+    return FULL | {"conclusion": 0}, place.lab.fields[[*place.lab.statements][-1]].what
 
 
-def contradict(place, statements):
+def contradict(place, *ids):
     """Answer what the student's own data do not support."""
     found = Check(place).all()
-    for field in statements:
-        offered = re.findall(r"\[.\] (.+?)(?=   |$)", place.sheet().raw(field.id), re.M)
-        if field.kind == "number":
-            offered = np.linspace(field.low, field.high, 7)
+    for id in ids:
 
-        def wrong(given, judge=field.judge, id=field.id):
-            right, _ = judge(found.data, found.answers | {id: given})
-            return not right(given)
+        def wrong(given, id=id):
+            judge = place.lab.statements[id].judge
+            return not judge(found.data, found.answers | {id: given})[0](given)
 
-        found.answers[field.id] = next(filter(wrong, offered))
-        answer(place, {field.id: found.answers[field.id]})
+        found.answers[id] = next(filter(wrong, offered(place, id) or [0, 1, 0.5, -7, 77]))
+        answer(place, {id: found.answers[id]})
 
 
 def cells(lab):
@@ -130,12 +128,14 @@ def cells(lab):
 
 def without(lab, *conditions, evidence):
     """The points that are left where conditions lack a run; evidence: for the other runs."""
-    most, all_cells = len(lab.conditions), cells(lab)
+    most, all_cells, states = len(lab.conditions), cells(lab), lab.statements.values()
     kept = sum(name not in conditions for name in all_cells)
     return FULL | {
         "runs": round(evidence + 10 * (most - len(conditions)) / most, 1),
         "measurements": round(10 + 15 * kept / len(all_cells), 1),
-        "conclusion": sum(s.points for s in lab.statements if not {*conditions} & {*s.needs}),
+        "conclusion": sum(
+            s.points for s in lab.statements.values() if not {*conditions} & {*s.needs}
+        ),
     }
 
 
@@ -211,7 +211,7 @@ def forge_meeting(run, files):
 def quick_runs_as_full_ones(place, other):
     """Their steps told as more, or their last generation as many."""
     lab, quick = place.lab, place.folder / "runs-quick"
-    short = replace(lab, conditions=tuple(c.shortened(lab.quick) for c in lab.conditions))
+    short = replace(lab, conditions=tuple(c.shortened(QUICK) for c in lab.conditions))
     assert make_runs(short, place.sheet(), quick, 1, lab.replications)
     full, brief = (own_runs(*each) for each in (
         (lab, place.sheet(), place.runs), (short, place.sheet(), quick)))  # fmt: skip
@@ -286,9 +286,7 @@ def numbers_written_in_another_way(place, other):
                 numbers = numbers_in(row[at], "it", count)
                 shown = [f"{each:.7f}".replace("-", "\u2212") for each in numbers]
                 row[at] = " \u2013 ".join(shown)
-        line = f"| {condition.name} | {' | '.join(row)} |"
-        pattern = rf"^\| {re.escape(condition.name)} \|.*$"
-        edit(place, lambda text, p=pattern, n=line: re.sub(p, lambda _: n, text, flags=re.M))
+        write_row(place, condition.name, f"| {condition.name} | {' | '.join(row)} |")
     return FULL, ""
 
 

@@ -4,7 +4,6 @@ import re
 import shutil
 from contextlib import redirect_stdout
 from dataclasses import replace
-from importlib import import_module
 from io import StringIO
 from pathlib import Path
 from unittest.mock import patch
@@ -16,16 +15,17 @@ from botschool.labs.declare import load_lab
 from botschool.labs.folder import Place, start
 from botschool.labs.runs import make_runs, own_runs
 from botschool.labs.saved import plain_runs
+from lab_answers import STUDENTS
 
-
-def student(number):
-    """Return the module that describes how to do the laboratory."""
-    return import_module(f"lab_answers.lab{number:02}")
+WHY = "Because a reward for standing is earned without any risk of falling over while moving on."
+PEOPLE = ("Ada", "Bo", "Cy")
+RULES = {"Ada": 5.0, "Bo": 2.0, "Cy": 0.5}
+"""Laboratory 9: the rule of each student."""
 
 
 def small(number, replications=5):
     """Return the laboratory with small budgets."""
-    lab, parts = load_lab(number), student(number).PARTS
+    lab, parts = load_lab(number), STUDENTS[number].parts
     return replace(
         lab,
         conditions=tuple(c.shortened(parts) for c in lab.conditions),
@@ -41,12 +41,11 @@ def fill(text, id, value):
     assert marker, id
     end = re.search(r"<!-- field|^## |\Z", rest, re.MULTILINE).start()
     field, rest = rest[:end], rest[end:]
-    line = field.lstrip().startswith("answer:")
-    if not line and ("[ ]" in field or "[x]" in field):
+    if field.lstrip().startswith("answer:"):
+        filled = re.sub(r"answer:[^\n]*", f"answer: {value}", field, count=1)
+    elif "[ ]" in field:
         field = field.replace("[x]", "[ ]")
         filled = re.sub(rf"\[ \] {re.escape(value)}(?=\s|$)", f"[x] {value}", field, count=1)
-    elif line:
-        filled = re.sub(r"answer:[^\n]*", f"answer: {value}", field, count=1)
     else:
         filled = re.sub(r"^>.*$", f"> {value}", field, count=1, flags=re.MULTILINE)
     assert filled != field or str(value) in field, (id, value, field)
@@ -64,18 +63,41 @@ def answer(place, answers):
         edit(place, lambda text, id=id, value=value: fill(text, id, value))
 
 
-def skeleton_filled(place, rule=5.0):
-    """Write measure.py and figure.py."""
-    does = student(place.lab.number)
+def offered(place, id):
+    """The answers of a choice."""
+    return re.findall(r"\[.\] (.+?)(?=   |$)", place.sheet().raw(id), re.MULTILINE)
+
+
+def guesses(place, name="Ada"):
+    """The predictions of one of PEOPLE; of the others, those of the first."""
+    number = PEOPLE.index(name) if name in PEOPLE else 0
+    found = {}
+    for id, field in place.lab.fields.items():
+        if field.predicts:
+            choices = offered(place, id)
+            choice = choices[number % len(choices)] if choices else WHY
+            found[id] = number if field.kind == "number" else choice
+    return found
+
+
+def predicted(lab, folder, name="Ada"):
+    """Start a laboratory and write a prediction."""
+    place = Place(lab, Path(folder) / lab.name)
+    start(place, name, "botschool")
+    answer(place, guesses(place, name))
+    STUDENTS[lab.number].prepare(place.folder)
+    return place
+
+
+def programs(place, mark=""):
+    """Write measure.py and figure.py; mark: code that marks the result."""
+    does, rule = STUDENTS[place.lab.number], RULES.get(place.sheet().text_of("name"), 5.0)
     path = place.folder / "measure.py"
-    head, main = path.read_text().split("def measure(", 1)[0], path.read_text().split("if __name")
-    path.write_text(
-        head.replace("RULE = 5.0", f"RULE = {rule}") + does.MEASURE + "\n\nif __name" + main[1]
-    )
-    y, x_name, y_name = does.DRAWN
-    places = {condition.name: condition.x for condition in place.lab.conditions}
+    head, rest = path.read_text().split("def measure(", 1)
+    head = head.replace("RULE = 5.0", f"RULE = {rule}")
+    path.write_text(f"{head}{does.measure}\n\nif __name{rest.split('if __name')[1]}")
+    y, x_name, y_name = does.drawn
     path = place.folder / "figure.py"
-    main = path.read_text().split("if __name")[1]
     path.write_text(
         f"""from matplotlib.figure import Figure
 
@@ -83,18 +105,15 @@ def skeleton_filled(place, rule=5.0):
 def figure(measurements):
     picture = Figure(layout="constrained")
     axes = picture.subplots()
-    places = {places}
-    for name, values in measurements.items():
-        if name.startswith("{does.SHOWN}"):
-            x = places[name]
+    for x, (name, values) in enumerate(measurements.items()):
+        if name.startswith("{does.shown}"):
             axes.plot([x] * len(values["{y}"]), values["{y}"], "o", alpha=0.6)
     axes.set_xlabel("{x_name}")
     axes.set_ylabel("{y_name}")
-    return picture
+    {mark}return picture
 
 
-if __name"""
-        + main
+if __name{path.read_text().split("if __name")[1]}"""
     )
 
 
@@ -121,44 +140,33 @@ def table(place, data):
     rows = [line for line in printed.getvalue().splitlines() if line.startswith("| ")]
     assert len(rows) == len(data)
     for row in rows:
-        name = row.split("|")[1].strip()
-        edit(place, lambda text, n=name, r=row: row_of(n).sub(r, text))
+        write_row(place, row.split("|")[1].strip(), row)
 
 
-def row_of(name):
-    return re.compile(rf"^\| {re.escape(name)} \|.*$", re.MULTILINE)
+def write_row(place, name, row):
+    pattern = re.compile(rf"^\| {re.escape(name)} \|.*$", re.MULTILINE)
+    edit(place, lambda text: pattern.sub(lambda _: row, text))
 
 
-def predicted(lab, folder, name="Ada", **predictions):
-    """Start a laboratory and write a prediction."""
-    place, does = Place(lab, Path(folder) / lab.name), student(lab.number)
-    start(place, name, "botschool")
-    answer(place, does.PREDICTIONS | predictions)
-    if hasattr(does, "prepare"):
-        does.prepare(place)
-    return place
-
-
-def conclude(place, rule=5.0):
+def conclude(place):
     """Measure, draw and conclude, all from the existing runs."""
-    skeleton_filled(place, rule)
-    if any(field.id == "rule" for field in place.lab.fields):
-        answer(place, {"rule": rule})
+    does = STUDENTS[place.lab.number]
+    programs(place)
+    if "rule" in place.lab.fields:
+        answer(place, {"rule": RULES.get(place.sheet().text_of("name"), 5.0)})
     data = measured(place)
     table(place, data)
-    if hasattr(student(place.lab.number), "mark"):
-        path, line = place.folder / "figure.py", student(place.lab.number).mark(data)
-        path.write_text(path.read_text().replace("return picture", f"{line}return picture"))
-    answer(place, student(place.lab.number).conclusions(place, data))
-    answer(place, {"words": "The spread surprised me."})
-    return data
+    if line := does.mark(data):
+        programs(place, line)
+    told, _ = place.sheet().values(place.lab.fields.values())
+    answer(place, does.conclude(data, told) | {"words": "The spread surprised me."})
 
 
-def honest(lab, folder, name="Ada", rule=5.0, workers=1, **predictions):
+def honest(lab, folder, name="Ada", workers=1):
     """Do a laboratory from beginning to end."""
-    place = predicted(lab, folder, name, **predictions)
+    place = predicted(lab, folder, name)
     assert make_runs(lab, place.sheet(), place.runs, workers, lab.replications)
-    conclude(place, rule)
+    conclude(place)
     return place
 
 

@@ -16,7 +16,7 @@ from botschool.labs.declare import NUMBERS
 from botschool.labs.folder import Place, start
 from botschool.labs.runs import make_runs, own_runs
 from lab_cheats import FULL, IF_DRAWN, NOTHING, SPOILED, without
-from lab_students import answer, conclude, copied, honest, predicted, small, student
+from lab_students import PEOPLE, answer, conclude, copied, honest, predicted, small
 
 pytestmark = pytest.mark.course
 each_lab = pytest.mark.parametrize("number", NUMBERS, ids=lambda number: f"lab{number:02}")
@@ -24,7 +24,7 @@ each_lab = pytest.mark.parametrize("number", NUMBERS, ids=lambda number: f"lab{n
 
 def checked(place):
     """The points of each part, and all messages."""
-    parts = Check(place).all().parts
+    parts = Check(place).all().parts.values()
     return {p.name: p.points for p in parts}, " ".join(m for p in parts for m in p.messages)
 
 
@@ -40,9 +40,7 @@ def students(tmp_path_factory):
     def of(number):
         if number not in made:
             lab, folder = small(number), tmp_path_factory.mktemp(f"lab{number:02}")
-            made[number] = [
-                honest(lab, folder / name, name, **told) for name, told in student(number).HONEST
-            ]
+            made[number] = [honest(lab, folder / name, name) for name in PEOPLE]
         return made[number]
 
     return of
@@ -53,10 +51,10 @@ def test_three_honest_sheets_with_different_outcomes_get_all_points(number, stud
     outcomes = set()
     for place in students(number):
         found = Check(place).all()
-        told = [message for part in found.parts for message in part.messages]
-        assert {part.name: part.points for part in found.parts} == FULL, told
+        told = [message for part in found.parts.values() for message in part.messages]
+        assert {name: part.points for name, part in found.parts.items()} == FULL, told
         assert found.picture.startswith(b"\x89PNG")
-        answers = [str(found.answers[statement.id]) for statement in place.lab.statements]
+        answers = [str(found.answers[id]) for id in place.lab.statements]
         table = [cell for c in place.lab.conditions for cell in place.sheet().row(c.name)]
         outcomes.add((*answers, *table))
     assert len(outcomes) == 3
@@ -150,7 +148,7 @@ def test_a_curve_that_was_drawn_by_hand_is_found_when_its_run_is_drawn(number, s
 
 def test_stopped_runs_go_on_and_are_the_same(students, tmp_path):
     done = students(3)[0]
-    place = predicted(small(3), tmp_path, "Ada", **student(3).HONEST[0][1])
+    place = predicted(small(3), tmp_path)
     folder = place.runs / "Pendulum 4"
     shutil.copytree(done.runs, place.runs)
     before = {file.name: file.read_bytes() for file in folder.glob("*.npy")}

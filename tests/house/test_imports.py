@@ -35,6 +35,7 @@ LAYERS = (
     {"grading.report"},
     {"grading.classes"},
     {"grading"},
+    {"labs.fields"},
     {"labs.declare"},
     {"labs"},
     {"cli"},

@@ -6,7 +6,7 @@ import os
 from collections import Counter
 from collections.abc import Callable
 from contextlib import ExitStack, nullcontext, suppress
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,7 @@ from botschool.grading.declare.checks import Wrong
 from botschool.grading.run.confined import SHORTAGES, MachineFault, machine_fault
 from botschool.grading.run.student import Student
 from botschool.labs.confined import drawn_figure, measured, student_file
-from botschool.labs.declare import PARTS, STRATEGY, WORDS
+from botschool.labs.declare import PARTS, STRATEGY
 from botschool.labs.evolving import replayed
 from botschool.labs.folder import Place
 from botschool.labs.runs import LEARN, changed, drawn, own_runs
@@ -47,60 +47,43 @@ class Part:
         self.messages.append(message)
 
 
-@dataclass
-class Checked:
-    """The result of a check."""
-
-    parts: list[Part]
-    answers: dict[str, Any]
-    data: dict[str, dict[str, np.ndarray]]
-    """Measurements of the student's proven runs."""
-    runs: dict[str, list[SavedRun]]
-    picture: bytes = b""
-    """The student's figure, as PNG."""
-    words: str = ""
-    """The text that the instructor reads."""
-
-    @property
-    def points(self) -> float:
-        """Return the points of all parts, at most 90; the instructor gives the other ten."""
-        return round(sum(part.points for part in self.parts), 1)
-
-    def plain(self) -> dict[str, Any]:
-        """Return the points and messages as plain data for JSON."""
-        return {
-            "points": self.points,
-            "max_points": sum(PARTS.values()),
-            "instructor_points": WORDS,
-            "parts": [asdict(part) for part in self.parts],
-        }
-
-
 class Check:
     """Checks one sheet. `draw` returns random bytes that decide which runs are made again."""
 
     def __init__(self, place: Place, draw: Callable[[int], bytes] = os.urandom) -> None:
+        """Read the sheet. Raises BotschoolError."""
         self.place, self.lab, self.draw = place, place.lab, draw
         self.sheet: Sheet = place.sheet()
         self.parts = {name: Part(name, most) for name, most in PARTS.items()}
-        self.answers, _ = self.sheet.values(self.lab.predictions + self.lab.fields)
+        self.answers, _ = self.sheet.values(self.lab.fields.values())
         self.runs: dict[str, list[SavedRun]] = {}
+        """The student's proven runs."""
         self.data: dict[str, dict[str, np.ndarray]] = {}
+        """Measurements of these runs."""
         self.picture = b""
+        """The student's figure, as PNG."""
         self.strategy: Student | None = None
         """The student's own strategy in the sandbox, once a run has been replayed."""
 
-    def all(self) -> Checked:
-        """Check every part. Raises BotschoolError for errors that the sheet did not cause."""
+    def all(self) -> Check:
+        """Check every part; return self. Raises BotschoolError where the sheet is not to blame."""
         self._walled("prediction", self._prediction)
         self._walled("runs", self._runs)
         self._walled("measurements", self._measurements)
         self._walled("measurements", self._table)
         self._walled("figure", self._figure)
         self._walled("conclusion", self._conclusion)
-        parts = list(self.parts.values())
-        words = self.sheet.words
-        return Checked(parts, self.answers, self.data, self.runs, self.picture, words)
+        return self
+
+    @property
+    def points(self) -> float:
+        """Return the points of all parts, at most 90; the instructor gives the other ten."""
+        return round(sum(part.points for part in self.parts.values()), 1)
+
+    @property
+    def full(self) -> bool:
+        """Return whether the check has given all that it can give."""
+        return self.points >= sum(PARTS.values())
 
     def _walled(self, name: str, check: Callable[[], None]) -> None:
         """Check a part; a file that nobody has thought of costs this part alone."""
@@ -274,12 +257,11 @@ class Check:
         for condition, column in cells:
             if condition.name not in self.whole:
                 continue
-            titles = [col.title for col in self.lab.columns]
             try:
                 row = self.sheet.row(condition.name)
-                at = titles.index(column.title)
+                at = self.lab.columns.index(column)
                 true = column.of(self.data[condition.name])
-                what = f"The table, {condition.name}, {column.title}"
+                what = f"The table, {condition.name}, {self.lab.titles[at]}:"
                 cell = row[at] if at < len(row) else ""
                 given = numbers_in(cell, what, len(true), "in its cell")
             except Unreadable as error:
@@ -289,7 +271,7 @@ class Check:
             if off <= column.tolerance(true) + 1e-9:
                 right += 1
             else:
-                part.lose(f"{what}: your runs give another number: python measure.py prints it.")
+                part.lose(f"{what} your runs give another number: python measure.py prints it.")
         part.points = round(part.points + TABLE * right / len(cells), 1)
         part.messages = _shortened(part.messages)
 
@@ -334,19 +316,18 @@ class Check:
         if not any(self.runs.values()):
             part.lose("The conclusion counts once there are runs of your own that are proven.")
             return
-        part.messages += self.sheet.values(self.lab.fields)[1]
-        for statement in self.lab.statements:
-            what = statement.what
+        asked = [field for field in self.lab.fields.values() if not field.predicts]
+        part.messages += self.sheet.values(asked)[1]
+        for id, statement in self.lab.statements.items():
+            what = self.lab.fields[id].what
             if not set(statement.needs) <= self.whole:
-                part.lose(f"{what}: its runs are missing or not proven.")
-                continue
-            if statement.id not in self.answers:
-                continue
-            right, told = statement.judge(self.data, self.answers)
-            if right(self.answers[statement.id]):
-                part.points += statement.points
-            else:
-                part.lose(f"{what}: {told}")
+                part.lose(f"{what} Its runs are missing or not proven.")
+            elif id in self.answers:
+                right, told = statement.judge(self.data, self.answers)
+                if right(self.answers[id]):
+                    part.points += statement.points
+                else:
+                    part.lose(f"{what} {told[:1].upper()}{told[1:]}")
 
 
 def _check_points(

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import base64
 import hashlib
 import hmac
 import os
 import re
+from base64 import b64encode
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -21,7 +21,7 @@ from botschool.grading.classes.export import one_person
 from botschool.grading.classes.files import File, Handed, listed, numbered_folders
 from botschool.grading.declare.exercise import Exercise, Number
 from botschool.grading.declare.state import DEFAULT, VARIABLE
-from botschool.labs.check import Check, Checked, Part
+from botschool.labs.check import Check, Part
 from botschool.labs.declare import NUMBERS, PARTS, WORDS, Lab, load_lab
 from botschool.labs.folder import Place, skeletons
 from botschool.labs.sheet import MAX_BYTES
@@ -158,26 +158,27 @@ def find_sheet(lab: Lab, submission: Path, folder: Path) -> tuple[Place, list[st
     return Place(lab, choice.file.parent), choice.notes
 
 
-def record(checked: Checked, lab: Lab) -> dict[str, Any]:
-    """Return the result in the form that grade-all stores."""
+def record(lab: Lab, check: Check | None) -> dict[str, Any]:
+    """Return the result in the form that grade-all stores, with the words as one more task."""
+    parts = [*check.parts.values()] if check else [Part(*part) for part in PARTS.items()]
+    words = Part("words", WORDS, messages=[*lab.rubric])
     tasks = [
         {
             "id": f"{_key(lab)}.{part.name}",
             "title": part.name,
             "points": part.points,
             "max_points": part.max_points,
-            "message": "\n".join(part.messages),
+            "message": (" " if part is words else "\n").join(part.messages),
             "printed": "",
         }
-        for part in checked.parts
+        for part in [*parts, words]
     ]
-    words = {"id": f"{_key(lab)}.words", "title": "words", "points": 0, "max_points": WORDS}
-    tasks.append(words | {"message": " ".join(lab.rubric), "printed": "", "words": checked.words})
-    picture = base64.b64encode(checked.picture).decode()
+    tasks[-1]["words"] = check.sheet.words if check else ""
+    picture = b64encode(check.picture).decode() if check else ""
     return {
         "exercise": _key(lab),
         "title": lab.title,
-        "points": checked.points,
+        "points": check.points if check else 0,
         "max_points": sum(PARTS.values()) + WORDS,
         "tasks": tasks,
         "pictures": [["figure.png", picture]] if picture else [],
@@ -192,13 +193,10 @@ def _grade(number: str, file: Path, tasks: list[str], alone: bool) -> dict[str, 
     lab = load_lab(number)
     place = Place(lab, file.parent)
     try:
-        place.sheet()
+        check = Check(place, secret_choice(place, os.environ.get(VARIABLE) or DEFAULT))
     except BotschoolError as error:
-        nothing = Checked([Part(name, most) for name, most in PARTS.items()], {}, {}, {})
-        problem = str(error).replace(f"{place.folder}/", "")
-        return record(nothing, lab) | {"problem": problem}
-    draw = secret_choice(place, os.environ.get(VARIABLE) or DEFAULT)
-    return record(Check(place, draw).all(), lab) | {"sheet": traces(place)}
+        return record(lab, None) | {"problem": str(error).replace(f"{place.folder}/", "")}
+    return record(lab, check.all()) | {"sheet": traces(place)}
 
 
 def traces(place: Place) -> dict[str, Any]:
@@ -207,7 +205,7 @@ def traces(place: Place) -> dict[str, Any]:
     robots = {hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in files}
     found = {"name": "", "robots": sorted(robots), "prediction": {}}
     with suppress(BotschoolError):
-        sheet, asked = place.sheet(), place.lab.predictions
+        sheet, asked = place.sheet(), [f for f in place.lab.fields.values() if f.predicts]
         answers, _ = sheet.values(asked)
         found["prediction"] = {f.what: str(answers[f.id]) for f in asked if f.id in answers}
         found["name"] = sheet.text_of("name")

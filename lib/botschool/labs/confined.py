@@ -15,6 +15,7 @@ from botschool.grading.declare.checks import Wrong
 from botschool.grading.run.student import Student
 from botschool.grading.run.temporary import temporary_folder
 from botschool.labs.declare import NUMBERS
+from botschool.labs.sheet import made_by
 from botschool.sandbox.scratch import MAX_PICTURE, MAX_PICTURE_SIDE
 
 SECONDS = 30
@@ -27,8 +28,7 @@ ANSWERS = tuple(f"botschool.labs.lab{number:02}" for number in NUMBERS)
 def student_file(path: Path) -> Iterator[Student]:
     """Yield a file alone in a child process. Raises Wrong if there is no such file."""
     if path.is_symlink() or not path.is_file():
-        number = path.resolve().parent.name.removeprefix("lab").lstrip("0")
-        raise Wrong(f"{path.name} is missing: botschool lab {number} start makes it again.")
+        raise Wrong(f"{path.name} is missing: {made_by(path)} makes it again.")
     with temporary_folder() as folder:
         copy = folder / "submitted" / path.name
         copy.parent.mkdir()

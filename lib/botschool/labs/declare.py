@@ -1,4 +1,4 @@
-"""Define the parts of a laboratory: conditions, measures, fields of the sheet, statements."""
+"""Define the parts of a laboratory: conditions, measures, the table, the figure, statements."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ import numpy as np
 
 from botschool.config import Experiment, from_dict, to_dict
 from botschool.errors import BotschoolError
+from botschool.labs.fields import Field, fields_of
 from botschool.wrappers import keywords
 
 PARTS = {"prediction": 5, "runs": 25, "measurements": 25, "figure": 10, "conclusion": 25}
@@ -22,17 +23,17 @@ NUMBERS = tuple(
     sorted(int(path.stem[3:]) for path in Path(__file__).parent.glob("lab[0-9][0-9].py"))
 )
 """Numbers of all laboratories: the modules labNN beside this file."""
-
 STRATEGY = "strategy"
 """Name of the module with the student's own strategy, in the laboratory's folder."""
 
+Run = dict[str, Any]
+"""A run in the form that measure.py gets."""
 Data = Mapping[str, Mapping[str, np.ndarray]]
 """Measurements: condition -> measure -> one value for each run."""
 Answers = Mapping[str, Any]
 """Readable fields of the sheet: id -> number, label of a choice, or text."""
 Judged = tuple[Callable[[Any], bool], str]
 """Whether an answer is right; a sentence that says how to find the right one."""
-Judge = Callable[[Data, Answers], Judged]
 
 
 @dataclass(frozen=True)
@@ -45,8 +46,6 @@ class Condition:
     """Like the result of config.to_dict; missing keys have their default."""
     generations: int | None = None
     """Generations of a run; None: until the experiment's steps are spent."""
-    x: float = 0.0
-    """Its place on the figure's horizontal axis."""
     kind: str = "evolving"
     """The module of botschool.labs that makes its runs: evolving or training."""
 
@@ -58,7 +57,6 @@ class Condition:
         policy: str,
         algo: str,
         by: str = "OpenAI-ES",
-        x: float = 0,
         generations: int | None = None,
         **more: Any,
     ) -> Condition:
@@ -72,21 +70,20 @@ class Condition:
             options = ", ".join(f"{k}={v:g}" for k, v in told.items() if k != "maxmsteps")
             told = {"maxmsteps": told["maxmsteps"], "options": options}
         exp = {"environment": environment, "algo": by} | more
-        experiment: dict[str, Any] = {"exp": exp, "policy": keywords(policy), "algo": told}
-        return cls(name, experiment, generations, x)
+        return cls(name, {"exp": exp, "policy": keywords(policy), "algo": told}, generations)
 
     @classmethod
     def trained(
-        cls, name: str, environment: str, msteps: float, ppo: dict[str, Any], x: float, **more: Any
+        cls, name: str, environment: str, msteps: float, ppo: str, **more: Any
     ) -> Condition:
         """Return a condition of trainings by PPO. more: further parts of the experiment."""
         experiment: dict[str, Any] = {
             "exp": {"environment": environment, "algo": "PPO"},
             "policy": {"pepisodes": 20},
             "algo": {"maxmsteps": msteps},
-            "ppo": ppo,
+            "ppo": keywords(ppo),
         }
-        return cls(name, experiment | more, x=x, kind="training")
+        return cls(name, experiment | more, kind="training")
 
     @property
     def maker(self) -> Any:
@@ -119,30 +116,24 @@ class Condition:
 
 
 @dataclass(frozen=True)
-class Field:
-    """A field of the sheet; one of the conclusion is right if the student's own data support it."""
+class Statement:
+    """A field of the conclusion that is right if the student's own data support it."""
 
-    id: str
-    kind: str
-    """"number", "choice" or "text"."""
-    what: str
-    """What the field asks for, in the words of messages."""
-    low: float = -np.inf
-    high: float = np.inf
-    points: int = 0
-    needs: tuple[str, ...] = ()
+    points: int
+    needs: tuple[str, ...]
     """Names of the conditions whose runs the answer needs."""
-    judge: Judge | None = None
-    """Returns whether an answer is right, and a sentence on the data; None: it has no points."""
-    words: int = 0
-    """Smallest number of words of a text."""
+    judge: Callable[[Data, Answers], Judged]
+    """Returns whether an answer is right, and a sentence on how to find the right one."""
+
+
+INTERVAL = 0.3
+"""Share of an interval's length by which each of its ends may be off."""
 
 
 @dataclass(frozen=True)
 class Column:
     """A column of the sheet's table."""
 
-    title: str
     statistic: Callable[[np.ndarray], Any]
     """A function of an array: np.median, np.mean, np.sum, or interval."""
     measure: str
@@ -168,10 +159,6 @@ class Column:
         return self.within + self.share * abs(true[0])
 
 
-INTERVAL = 0.3
-"""Share of an interval's length by which each of its ends may be off."""
-
-
 def measured(name: str, values: Mapping[str, np.ndarray]) -> np.ndarray:
     """Return a measure of each run, or the difference of two in the form "reported - fresh"."""
     first, _, second = name.partition(" - ")
@@ -193,34 +180,28 @@ class Figure:
 
 @dataclass(frozen=True)
 class Lab:
-    """A laboratory."""
+    """A laboratory: what its page, labNN.md, does not say."""
 
     number: int
     conditions: tuple[Condition, ...]
-    predictions: tuple[Field, ...]
-    fields: tuple[Field, ...]
-    """Fields after the prediction that the check reads."""
+    statements: dict[str, Statement]
+    """The fields of the conclusion that earn points, by their id."""
     measures: dict[str, float]
     """What measure.py returns: name -> relative tolerance."""
-    reference: Callable[[dict[str, Any], Answers], dict[str, float]]
+    reference: Callable[[Run, Answers], dict[str, float]]
     """Returns the right measures of a run."""
     unseen: tuple[Condition, ...]
     """Conditions of the check's own runs, which measure.py has never seen."""
     columns: tuple[Column, ...]
+    """The columns of the table, in the order of the page."""
     figure: Figure
     rubric: tuple[str, ...]
     """Sentences for the instructor who grades the words."""
-    robot: str
-    """Word for what a run makes, in the plural, such as "hoppers"."""
-    shown: tuple[str, ...]
+    shown: tuple[str, ...] = ()
     """Conditions whose best robot the report replays; only conditions that evolve."""
-    best: str = ""
-    """The measure that is largest in the run that the report replays."""
     separate: Callable[[list[dict[str, float]]], str] = lambda measured: ""
     """Returns what is wrong with the measures of all unseen runs together; "" if nothing."""
     replications: int = 10
-    quick: int = 10
-    """With --quick, each condition has three runs with a budget this many times smaller."""
     redone: int = 3
     """Number of runs that a check makes again."""
     others: bool = False
@@ -243,10 +224,16 @@ class Lab:
         """Return the question in the sheet's first line."""
         return self.page.partition("\n")[0].partition(". ")[2]
 
+    @cached_property
+    def fields(self) -> dict[str, Field]:
+        """Return the fields of the sheet that the check reads."""
+        return fields_of(self.page)
+
     @property
-    def statements(self) -> tuple[Field, ...]:
-        """Return the fields of the conclusion that earn points."""
-        return tuple(field for field in self.fields if field.judge)
+    def titles(self) -> list[str]:
+        """Return the titles of the table's columns."""
+        before = self.page.partition(f"\n| {self.conditions[0].name} |")[0]
+        return [title.strip() for title in before.splitlines()[-2].split("|")[2:-1]]
 
     def condition(self, name: str) -> Condition:
         """Return the condition with this name."""

@@ -53,8 +53,6 @@ class Place:
         return Sheet.read(self.folder / "sheet.md")
 
 
-SAME = "maxmsteps"
-"""The budget in million steps, which counts unless a condition says how many generations."""
 POST_EVALUATED = """\
 After each generation the best robot is *post-evaluated*: it plays `pepisodes` further episodes,
 the same for all generations of a run. Their mean is its post-evaluated fitness. The best robot of a
@@ -67,48 +65,31 @@ def settings(lab: Lab) -> str:
     """Return all that decides a run of the laboratory, as a table: setting, value in the runs."""
     values: dict[str, dict[str, list[str]]] = {}
     for condition in lab.conditions:
-        told = {
-            f"[{section.upper()}] | `{name}`": value
-            for section, named in condition.experiment.items()
-            for name, value in (named if isinstance(named, dict) else {section: named}).items()
-            if not (condition.generations and name == SAME)
-        }
-        if condition.generations:
-            told["[ALGO] | `generations`"] = condition.generations
-        for name, value in told.items():
-            shown = ", ".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)
-            values.setdefault(name, {}).setdefault(shown, []).append(condition.name)
-    rows = [f"| {name} | {_value(found, lab)} |" for name, found in values.items()]
+        for section, named in condition.experiment.items():
+            for name, value in named.items() if isinstance(named, dict) else [(section, named)]:
+                if name == "maxmsteps" and condition.generations:
+                    name, value = "generations", condition.generations
+                shown = str(value).strip("[]").replace("'", "")
+                setting = values.setdefault(f"[{section.upper()}] | `{name}`", {})
+                setting.setdefault(shown, []).append(condition.name)
+    rows = "\n".join(f"| {name} | {_value(found, lab)} |" for name, found in values.items())
     meets = any(c.experiment["exp"]["algo"] == "coevo2" for c in lab.conditions)
     trains = any(c.kind == "training" for c in lab.conditions)
     lists = "`botschool es` and `botschool rl --explain` list" if trains else "`botschool es` lists"
     return (
         f"{'' if meets else POST_EVALUATED}These settings decide a run. All others have their "
         f"defaults:\n{lists} and explain{'' if trains else 's'} them.\n\n"
-        "| section | setting | value |\n|---|---|---|\n" + "\n".join(rows)
+        f"| section | setting | value |\n|---|---|---|\n{rows}"
     )
 
 
 def _value(found: dict[str, list[str]], lab: Lab) -> str:
     """Return the values of a setting: the commonest first, the conditions with each other one."""
     (usual, where), *others = sorted(found.items(), key=lambda each: -len(each[1]))
-    if not others and len(where) == len(lab.conditions):
-        return usual
-    if len(others) > 2 or len(where) <= len(lab.conditions) / 2:
-        return "; ".join(f"{value} ({_together(names, lab)})" for value, names in found.items())
-    return usual + "".join(f"; {value} in {_together(names, lab)}" for value, names in others)
-
-
-def _together(names: list[str], lab: Lab) -> str:
-    """Return names of conditions; those that share their first word, if all are there, by it."""
-    groups: dict[str, list[str]] = {}
-    for condition in lab.conditions:
-        groups.setdefault(condition.name.split()[0], []).append(condition.name)
-    told = []
-    for word, group in groups.items():
-        here = [name for name in group if name in names]
-        told += [word] if here == group and len(groups) > 1 else here
-    return ", ".join(told)
+    everywhere = sum(map(len, found.values())) == len(lab.conditions)
+    if everywhere and len(where) > len(lab.conditions) / 2:
+        return "; ".join([usual, *(f"{value} in {', '.join(names)}" for value, names in others)])
+    return "; ".join(f"{value} ({', '.join(names)})" for value, names in found.items())
 
 
 def skeletons(lab: Lab) -> dict[str, str]:

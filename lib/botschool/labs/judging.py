@@ -1,4 +1,4 @@
-"""Ask for conclusions: fields of a sheet that the student's own data judge."""
+"""Ask for conclusions: statements that the student's own data judge."""
 
 from __future__ import annotations
 
@@ -7,45 +7,18 @@ from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import Answers, Column, Data, Field, Judge, Judged, measured
+from botschool.labs.declare import Answers, Column, Data, Judged, Statement, measured
 from botschool.labs.measuring import interval, permutation_test, power
 
 CANNOT_TELL = "my runs cannot tell"
 LEVEL, NEAR = 0.05, (0.03, 0.07)
 """Two groups differ if p is below LEVEL; if p lies within NEAR, either answer is right."""
-FRESH = (
-    Column("median fitness in new episodes", np.median, "fresh", 0.6, 0.002),
-    Column("95 % interval", interval, "fresh", 1),
-)
-"""Columns for the measure "fresh": fitness in new episodes."""
+FRESH = (Column(np.median, "fresh", 0.6, 0.002), Column(interval, "fresh", 1))
+"""Columns for the measure "fresh", fitness in new episodes: the median, its interval."""
 RETURN = ("return", "fitness", "reward")
 """Words for the unit of returns."""
 Test = Callable[[np.ndarray, np.ndarray], float]
 """permutation_test or paired_test: returns the p of two groups."""
-
-
-def number(
-    id: str,
-    what: str,
-    low: float,
-    high: float,
-    points: int = 0,
-    needs: tuple[str, ...] = (),
-    judge: Judge | None = None,
-) -> Field:
-    """Return a field for a number."""
-    return Field(id, "number", what, low, high, points, needs, judge)
-
-
-def choice(
-    id: str, what: str, points: int = 0, needs: tuple[str, ...] = (), judge: Judge | None = None
-) -> Field:
-    """Return a field of boxes, of which one is marked."""
-    return Field(id, "choice", what, points=points, needs=needs, judge=judge)
-
-
-WHY = Field("why", "text", "Why you predict this", words=10)
-"""The last field of each prediction."""
 
 
 def one_of(right: Iterable[Any], told: str) -> Judged:
@@ -69,14 +42,12 @@ def groups(
 
 
 def larger(
-    id: str,
-    what: str,
     points: int,
     measure: str | tuple[str, str],
     conditions: tuple[str, ...],
     labels: tuple[str, ...] = (),
     test: Test = permutation_test,
-) -> Field:
+) -> Statement:
     """Ask which of two groups has the larger mean.
 
     labels: the answers if the first one has, and if the second one has; () for their names.
@@ -89,7 +60,7 @@ def larger(
         )
         return one_of(winners(*groups(data, measure, conditions), labels or conditions, test), told)
 
-    return choice(id, what, points, conditions, judge)
+    return Statement(points, conditions, judge)
 
 
 def winners(
@@ -104,25 +75,21 @@ def winners(
 
 
 def p_value(
-    id: str,
-    what: str,
     points: int,
     measure: str | tuple[str, str],
     conditions: tuple[str, ...],
     test: Test = permutation_test,
-) -> Field:
+) -> Statement:
     """Ask for the p of a test of two groups."""
 
     def judge(data: Data, answers: Answers) -> Judged:
         p = test(*groups(data, measure, conditions))
         return near(p, 0.01, 0.2, "your runs give another p: compute it again.")
 
-    return number(id, what, 0, 1, points, conditions, judge)
+    return Statement(points, conditions, judge)
 
 
-def powerful(
-    id: str, what: str, points: int, measure: str, conditions: tuple[str, ...], runs: int
-) -> Field:
+def powerful(points: int, measure: str, conditions: tuple[str, ...], runs: int) -> Statement:
     """Ask in how many of 100 cases groups of so many runs would differ significantly."""
 
     def judge(data: Data, answers: Answers) -> Judged:
@@ -130,17 +97,19 @@ def powerful(
         told = f"resampling your runs, {runs} of each, gives another share: use power."
         return near(found, 12, 0, told)
 
-    return number(id, what, 0, 100, points, conditions, judge)
+    return Statement(points, conditions, judge)
 
 
-def mean_over(conditions: tuple[str, ...], measure: str, within: float, over: str) -> Judge:
-    """Judge the mean of a measure over all runs of these conditions; over: words for them."""
+def mean_over(
+    points: int, conditions: tuple[str, ...], measure: str, within: float, over: str
+) -> Statement:
+    """Ask for the mean of a measure over all runs of these conditions; over: words for them."""
 
     def judge(data: Data, answers: Answers) -> Judged:
         found = np.concatenate([measured(measure, data[name]) for name in conditions]).mean()
         return near(float(found), within, 0.02, f"compute the mean of {measure} over {over} again.")
 
-    return judge
+    return Statement(points, conditions, judge)
 
 
 def side(

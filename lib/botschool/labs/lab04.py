@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from botschool.labs.declare import Answers, Column, Condition, Data, Figure, Judge, Judged, Lab
+from botschool.labs.declare import Column, Condition, Figure, Lab, Run
 from botschool.labs.judging import (
     CANNOT_TELL,
     FRESH,
     RETURN,
-    WHY,
-    choice,
+    Answers,
+    Data,
+    Judged,
+    Statement,
     mean_over,
     near,
-    number,
     one_of,
 )
 from botschool.labs.measuring import permutation_test, play_again
 
 
-def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
+def reference(run: Run, answers: Answers) -> dict[str, float]:
     """Return reported fitness; mean and standard deviation of returns in 100 new episodes."""
     returns = play_again(run, seed=1, episodes=100)
     return {
@@ -54,7 +53,6 @@ def condition(problem: str, change: str) -> Condition:
         environment,
         f"episodes=2, pepisodes=5, maxsteps={steps}, nhiddens=10, bias=1, afunction=2",
         f"maxmsteps={msteps}, samplesize=20, stepsize=0.05, noiseStdDev={noise}, wdecay=0",
-        x=float(NAMES.index(change)),
     )
     for section in made.experiment.values():
         if change in section:
@@ -68,11 +66,11 @@ def tests(data: Data, problem: str) -> dict[str, float]:
     return {name: permutation_test(data[f"{problem} {name}"]["fresh"], base) for name in CHANGES}
 
 
-def strongest(problem: str) -> Judge:
-    """Judge which change has the smallest p, if that is small enough for six tests."""
+def strongest(points: int, conditions: tuple[str, ...]) -> Statement:
+    """Ask which change has the smallest p, if that is small enough for six tests."""
 
     def judge(data: Data, answers: Answers) -> Judged:
-        p = tests(data, problem)
+        p = tests(data, conditions[0].split()[0])
         least = min(p.values())
         winners = {name for name, value in p.items() if value <= 1.5 * least + 5e-4}
         right = winners if least < LEVEL else {CANNOT_TELL}
@@ -81,7 +79,7 @@ def strongest(problem: str) -> Judge:
         told = f"look for the smallest of the six p; it must be below {LEVEL:.4f} to count."
         return one_of(right, told)
 
-    return judge
+    return Statement(points, conditions, judge)
 
 
 def count(data: Data, answers: Answers) -> Judged:
@@ -102,35 +100,26 @@ def episodes(data: Data, answers: Answers) -> Judged:
 
 CONDITIONS = tuple(condition(problem, change) for problem in PROBLEMS for change in NAMES)
 ACROBOT, PENDULUM = (tuple(f"{problem} {name}" for name in NAMES) for problem in PROBLEMS)
-LUCK = mean_over(ACROBOT, "reported - fresh", 0.2, "all your Acrobot runs")
 LAB = Lab(
     number=4,
     conditions=CONDITIONS,
-    predictions=(
-        choice("first-acrobot", "What matters most on Acrobot"),
-        choice("first-pendulum", "What matters most on Pendulum"),
-        number("luck-expected", "How much of the reported fitness is luck", -500, 500),
-        WHY,
-    ),
-    fields=(
-        choice("acrobot", "What matters most on Acrobot", 6, ACROBOT, strongest("Acrobot")),
-        choice("pendulum", "What matters most on Pendulum", 6, PENDULUM, strongest("Pendulum")),
-        number("count", "How many matter on Pendulum", 0, 6, 4, PENDULUM, count),
-        number("luck", "What luck adds on Acrobot", -500, 500, 4, ACROBOT, LUCK),
-        number("episodes", "The episodes that ranking takes", 0, 1e9, 5, PENDULUM[:1], episodes),
-    ),
+    statements={
+        "acrobot": strongest(6, ACROBOT),
+        "pendulum": strongest(6, PENDULUM),
+        "count": Statement(4, PENDULUM, count),
+        "luck": mean_over(4, ACROBOT, "reported - fresh", 0.2, "all your Acrobot runs"),
+        "episodes": Statement(5, PENDULUM[:1], episodes),
+    },
     measures={"reported": 1e-6, "fresh": 1e-3, "spread": 1e-3},
     reference=reference,
     unseen=(CONDITIONS[1], CONDITIONS[-1]),
-    columns=(*FRESH, Column("mean luck", np.mean, "reported - fresh", 0.2, 0.01)),
+    columns=(*FRESH, Column(np.mean, "reported - fresh", 0.2, 0.01)),
     figure=Figure("fresh", PENDULUM, RETURN),
     rubric=(
         "The reason of the prediction says what one of the hyperparameters does.",
         "The student says why six tests need a stricter limit than one.",
         "What surprised the student is a fact of the runs, with its number.",
     ),
-    robot="evolutions",
     shown=("Acrobot base", "Pendulum base"),
-    best="fresh",
     redone=10,
 )

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from botschool.labs.declare import Answers, Column, Condition, Figure, Lab
-from botschool.labs.judging import RETURN, WHY, choice, larger, mean_interval, number, p_value
+from botschool.labs.declare import Column, Condition, Figure, Lab, Run
+from botschool.labs.judging import RETURN, Answers, larger, mean_interval, p_value
 from botschool.labs.measuring import paired_test, play_again
 
 BODY = 64
 """Parameters of a body, at the end of a genotype."""
 
 
-def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
+def reference(run: Run, answers: Answers) -> dict[str, float]:
     """Return the brain's return in its own body, and the mean of its returns in the others'."""
     brain = np.asarray(run["genotype"])[:-BODY]
     mixed = [np.concatenate([brain, np.asarray(other)[-BODY:]]) for other in run["others"]]
@@ -38,7 +36,6 @@ def condition(stage: str) -> Condition:
         "PlanarBodyBrain-v0",
         f"episodes=1, pepisodes=3, maxsteps=400, {network}",
         f"maxmsteps={MSTEPS[stage]}, samplesize=10, stepsize=0.05, noiseStdDev=0.05, wdecay=1",
-        x=MSTEPS[stage],
     )
 
 
@@ -47,26 +44,20 @@ BODIES = ("its own", "the others'")
 LAB = Lab(
     number=5,
     conditions=tuple(condition(stage) for stage in STAGES),
-    predictions=(
-        choice("early-expected", "Where an early brain does better"),
-        choice("late-expected", "Where a late brain does better"),
-        number("swapped-expected", "The late return in other bodies", -200, 2000),
-        WHY,
-    ),
-    fields=(
-        larger("early", "Where an early brain does better", 5, PAIR, EARLY, BODIES, paired_test),
-        larger("late", "Where a late brain does better", 5, PAIR, LATE, BODIES, paired_test),
-        p_value("p-paired", "The p of the paired test", 5, PAIR, EARLY, paired_test),
-        p_value("p-groups", "The p of the test of two groups", 5, PAIR, EARLY),
-        larger("grows", "When the loss is larger", 5, "own - swapped", STAGES),
-    ),
+    statements={
+        "early": larger(5, PAIR, EARLY, BODIES, paired_test),
+        "late": larger(5, PAIR, LATE, BODIES, paired_test),
+        "p-paired": p_value(5, PAIR, EARLY, paired_test),
+        "p-groups": p_value(5, PAIR, EARLY),
+        "grows": larger(5, "own - swapped", STAGES),
+    },
     measures={"own": 1e-3, "swapped": 1e-3},
     reference=reference,
     unseen=(condition("early"), condition("early")),
     columns=(
-        Column("median in its own body", np.median, "own", 0.1, 0.002),
-        Column("median in the others'", np.median, "swapped", 0.1, 0.002),
-        Column("mean difference, 95 % interval", mean_interval, "own - swapped", 0.3),
+        Column(np.median, "own", 0.1, 0.002),
+        Column(np.median, "swapped", 0.1, 0.002),
+        Column(mean_interval, "own - swapped", 0.3),
     ),
     figure=Figure("swapped", STAGES, RETURN),
     rubric=(
@@ -74,8 +65,6 @@ LAB = Lab(
         "The student says why pairs find more than two groups, or why they do not here.",
         "What surprised the student is a fact of the runs, with its number.",
     ),
-    robot="walkers",
     shown=STAGES,
-    best="own",
     others=True,
 )

@@ -3,12 +3,21 @@
 from __future__ import annotations
 
 from itertools import combinations
-from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import Answers, Column, Condition, Data, Figure, Judged, Lab
-from botschool.labs.judging import WHY, choice, larger, mean_interval, number, one_of, p_value, side
+from botschool.labs.declare import Column, Condition, Figure, Lab, Run
+from botschool.labs.judging import (
+    Answers,
+    Data,
+    Judged,
+    Statement,
+    larger,
+    mean_interval,
+    one_of,
+    p_value,
+    side,
+)
 from botschool.labs.measuring import CYLINDER, forage, interval
 
 
@@ -26,7 +35,7 @@ def described(episode: dict[str, np.ndarray]) -> tuple[float, float, float, floa
     return search, float(told[0]), float(told[1]), float(sides.mean()) if len(sides) else 0.0
 
 
-def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
+def reference(run: Run, answers: Answers) -> dict[str, float]:
     """Return the return, the share of it that is lost without memory, and four descriptors."""
     ordinary, forgetful = forage(run), forage(run, forget=True)
     earned = float(np.mean([each["rewards"].sum() for each in ordinary]))
@@ -55,7 +64,6 @@ def condition(kind: str, msteps: float = 20) -> Condition:
         "ErDiscrim",
         f"episodes=3, pepisodes=25, maxsteps=500, {network}",
         f"maxmsteps={msteps}, samplesize=20, stepsize=0.03, noiseStdDev=0.05",
-        x=float(list(KINDS).index(kind)),
     )
 
 
@@ -107,27 +115,21 @@ BOTH = ("LSTM", "feed-forward")
 LAB = Lab(
     number=6,
     conditions=tuple(condition(kind) for kind in KINDS),
-    predictions=(
-        number("families-expected", "How many families there are", 1, 20),
-        choice("better-expected", "Which kind earns more"),
-        number("lost-expected", "The share that is lost without memory", -10, 1),
-        WHY,
-    ),
-    fields=(
-        number("families", "The number of families", 1, 20, 6, BOTH, counted),
-        choice("mixed", "Whether a family has both kinds", 4, BOTH, mixed),
-        larger("better", "Which kind earns more", 5, "return", BOTH),
-        p_value("p", "The p of the permutation test", 4, "return", BOTH),
-        choice("lost", "What memory is worth", 6, ("LSTM",), share_lost),
-    ),
+    statements={
+        "families": Statement(6, BOTH, counted),
+        "mixed": Statement(4, BOTH, mixed),
+        "better": larger(5, "return", BOTH),
+        "p": p_value(4, "return", BOTH),
+        "lost": Statement(6, ("LSTM",), share_lost),
+    },
     measures={"return": 1e-3, "lost": 1e-3} | dict.fromkeys(DESCRIPTORS, 1e-3),
     reference=reference,
     unseen=(condition("LSTM", 4), condition("feed-forward", 4)),
     columns=(
-        Column("median return", np.median, "return", 0.6),
-        Column("95 % interval", interval, "return", 1),
-        Column("median share lost", np.median, "lost", 0.006),
-        Column("median steps of the search", np.median, "search", 0.6),
+        Column(np.median, "return", 0.6),
+        Column(interval, "return", 1),
+        Column(np.median, "lost", 0.006),
+        Column(np.median, "search", 0.6),
     ),
     figure=Figure("turning", BOTH, ("rad",)),
     rubric=(
@@ -135,7 +137,5 @@ LAB = Lab(
         "The student says what the feed-forward robots are good for here (a control).",
         "What surprised the student is a fact of the runs, with its number.",
     ),
-    robot="Kheperas",
     shown=BOTH,
-    best="return",
 )

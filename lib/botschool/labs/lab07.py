@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from botschool.labs.declare import Answers, Column, Condition, Data, Figure, Judged, Lab
-from botschool.labs.judging import RETURN, WHY, choice, larger, number, one_of, p_value, side
+from botschool.labs.declare import Column, Condition, Figure, Lab, Run
+from botschool.labs.judging import (
+    RETURN,
+    Answers,
+    Data,
+    Judged,
+    Statement,
+    larger,
+    one_of,
+    p_value,
+    side,
+)
 from botschool.labs.measuring import RESAMPLES, interval, paired_test, swing
 
 LAST, UPRIGHT = 50, 0.3
@@ -19,7 +27,7 @@ def upright(seen: dict[str, np.ndarray]) -> float:
     return float((np.abs(seen["angles"][:, -LAST:]) < UPRIGHT).all(axis=1).mean())
 
 
-def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
+def reference(run: Run, answers: Answers) -> dict[str, float]:
     """Return the return and the share of upright ends, under the old and the greater gravity."""
     usual, heavy = swing(run, gravity=10.0), swing(run, gravity=12.0)
     return {
@@ -42,7 +50,6 @@ def condition(stage: str) -> Condition:
         "Pendulum-v1",
         "episodes=3, pepisodes=10, maxsteps=200, nhiddens=10, bias=1, afunction=2, out_type=3",
         f"maxmsteps={MSTEPS[stage]}, samplesize=20, stepsize=0.1, noiseStdDev=0.05",
-        x=MSTEPS[stage],
     )
 
 
@@ -68,34 +75,21 @@ def survivors(data: Data, answers: Answers) -> Judged:
 LAB = Lab(
     number=7,
     conditions=tuple(condition(stage) for stage in STAGES),
-    predictions=(
-        choice("when-expected", "When behaviour gets its shape"),
-        number("survivors-expected", "How many survive", 0, 10),
-        WHY,
-    ),
-    fields=(
-        choice("when", "When behaviour gets its shape", 6, STAGES, when),
-        larger("better", "Which stage earns more", 5, "return", LATER),
-        p_value("p", "The p of the permutation test", 4, "return", LATER),
-        larger(
-            "gravity",
-            "Under which gravity they earn more",
-            5,
-            ("return", "heavy"),
-            LATE,
-            ("10", "12"),
-            paired_test,
-        ),
-        number("survivors", "How many survive", 0, 10, 5, LATE, survivors),
-    ),
+    statements={
+        "when": Statement(6, STAGES, when),
+        "better": larger(5, "return", LATER),
+        "p": p_value(4, "return", LATER),
+        "gravity": larger(5, ("return", "heavy"), LATE, ("10", "12"), paired_test),
+        "survivors": Statement(5, LATE, survivors),
+    },
     measures={"return": 1e-3, "upright": 1e-6, "heavy": 1e-3, "heavy_upright": 1e-6},
     reference=reference,
     unseen=(condition("early"), condition("late")),
     columns=(
-        Column("median return", np.median, "return", 0.6, 0.002),
-        Column("95 % interval", interval, "return", 1),
-        Column("mean share upright", np.mean, "upright", 0.006),
-        Column("median return, gravity 12", np.median, "heavy", 0.6, 0.002),
+        Column(np.median, "return", 0.6, 0.002),
+        Column(interval, "return", 1),
+        Column(np.mean, "upright", 0.006),
+        Column(np.median, "heavy", 0.6, 0.002),
     ),
     figure=Figure("return", STAGES, RETURN),
     rubric=(
@@ -103,8 +97,6 @@ LAB = Lab(
         "What surprised the student is a fact of the runs, with its number.",
         "The student says what two gravities cannot tell about others.",
     ),
-    robot="pendulums",
     shown=("early", "late"),
-    best="return",
     redone=6,
 )

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from botschool.labs.declare import Answers, Column, Condition, Figure, Lab
-from botschool.labs.judging import FRESH, WHY, choice, larger, number, p_value, powerful
+from botschool.labs.declare import Column, Condition, Figure, Lab, Run
+from botschool.labs.judging import FRESH, Answers, larger, p_value, powerful
 from botschool.labs.measuring import play_again
 
 WIDTH = 20
 SEVERE = 0.3
 
 
-def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
+def reference(run: Run, answers: Answers) -> dict[str, float]:
     """Return the curve's largest fall, whether it is severe, and the fitness in new episodes."""
     average = np.asarray(run["stat"])[:, 4]
     width = min(WIDTH, len(average))
@@ -50,7 +48,7 @@ def condition(problem: str, step: float, by: str = "OpenAI-ES") -> Condition:
     """Return a condition: this step size; by: the algorithm."""
     environment, policy, msteps = PROBLEMS[problem]
     algo = f"maxmsteps={msteps}, stepsize={step:g}, noiseStdDev=0.05, samplesize=20"
-    return Condition.of(f"{problem} {step:g}", environment, policy, algo, by, step)
+    return Condition.of(f"{problem} {step:g}", environment, policy, algo, by)
 
 
 HOPPER = tuple(f"hopper {step:g}" for step in STEPS["hopper"])
@@ -61,25 +59,19 @@ LAB = Lab(
         *(condition("hopper", step, "strategy:evolve") for step in STEPS["hopper"]),
         *(condition("Pendulum", step) for step in STEPS["Pendulum"]),
     ),
-    predictions=(
-        choice("best-hopper", "The best step size of the hopper"),
-        choice("best-pendulum", "The best step size of Pendulum"),
-        number("severe", "Severe regressions with step size 0.1", 0, 10),
-        WHY,
-    ),
-    fields=(
-        larger("drops", "The hopper's drops", 5, "drop", ENDS, ("0.01", "0.1")),
-        larger("hopper", "The hopper's fitness", 5, "fresh", SMALL, ("0.01", "0.03")),
-        p_value("p-hopper", "The hopper's p", 4, "fresh", SMALL),
-        powerful("power", "What five runs would find", 6, "fresh", SMALL, 5),
-        larger("pendulum", "Pendulum's fitness", 5, "fresh", LONG, ("0.1", "0.5")),
-    ),
+    statements={
+        "drops": larger(5, "drop", ENDS, ("0.01", "0.1")),
+        "hopper": larger(5, "fresh", SMALL, ("0.01", "0.03")),
+        "p-hopper": p_value(4, "fresh", SMALL),
+        "power": powerful(6, "fresh", SMALL, 5),
+        "pendulum": larger(5, "fresh", LONG, ("0.1", "0.5")),
+    },
     measures={"drop": 1e-4, "severe": 1e-6, "fresh": 1e-3},
     reference=reference,
     unseen=(condition("hopper", 0.1), condition("Pendulum", 0.5)),
     columns=(
-        Column("median drop", np.median, "drop", 0.006),
-        Column("severe", np.sum, "severe", 0.01),
+        Column(np.median, "drop", 0.006),
+        Column(np.sum, "severe", 0.01),
         *FRESH,
     ),
     figure=Figure("drop", HOPPER, ("drop", "share", "height")),
@@ -88,9 +80,7 @@ LAB = Lab(
         "What surprised the student is a fact of the runs, with its number.",
         "The student says why the best robot of a run hides what its curve shows.",
     ),
-    robot="evolutions",
     shown=ENDS,
-    best="fresh",
     redone=8,
     strategy="ex08_openai_es/openai_es.py",
 )

@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from botschool.labs.declare import Answers, Column, Condition, Data, Figure, Judged, Lab
-from botschool.labs.judging import WHY, choice, larger, near, number, one_of, p_value, side, span
+from botschool.labs.declare import Column, Condition, Figure, Lab, Run
+from botschool.labs.judging import (
+    Answers,
+    Data,
+    Judged,
+    Statement,
+    larger,
+    near,
+    one_of,
+    p_value,
+    side,
+    span,
+)
 from botschool.labs.measuring import RESAMPLES, interval, record
 
 
-def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
+def reference(run: Run, answers: Answers) -> dict[str, float]:
     """Return metres ahead, share of steps with a foot on the ground, and whether it is a statue."""
     seen = record(run, seed=1)
     metres = float(seen["distance"][0] - seen["distance"][-1])
@@ -40,7 +49,6 @@ def condition(bonus: float, by: str = "OpenAI-ES") -> Condition:
         f"episodes=1, pepisodes=3, maxsteps=1000, {network}",
         "maxmsteps=4, stepsize=0.03, noiseStdDev=0.05, samplesize=20, wdecay=1",
         by,
-        bonus,
         options=f"alive={bonus:g}",
     )
 
@@ -108,26 +116,20 @@ ALL = tuple(f"bonus {bonus:g}" for bonus in BONUSES)
 LAB = Lab(
     number=9,
     conditions=tuple(condition(bonus, "strategy:evolve") for bonus in BONUSES),
-    predictions=(
-        number("tipping", "The bonus at which it tips", 0, NEVER),
-        choice("both", "Whether some do both"),
-        WHY,
-    ),
-    fields=(
-        number("rule", "The rule for statues", 0.5, 20),
-        number("observed", "The tipping point of your runs", 0, NEVER, 5, ALL, observed),
-        choice("against", "The tipping point and your prediction", 6, ALL, against_prediction),
-        larger("further", "Which hoppers go further", 5, "metres", ENDS),
-        p_value("p", "The p of the permutation test", 4, "metres", ENDS),
-        choice("enough", "Whether ten runs are enough", 5, ALL, enough),
-    ),
+    statements={
+        "observed": Statement(5, ALL, observed),
+        "against": Statement(6, ALL, against_prediction),
+        "further": larger(5, "metres", ENDS),
+        "p": p_value(4, "metres", ENDS),
+        "enough": Statement(5, ALL, enough),
+    },
     measures={"metres": 0.01, "ground": 0.01, "statue": 0.01},
     reference=reference,
     unseen=(condition(0.0), condition(1.0)),
     columns=(
-        Column("median metres", np.median, "metres", 0.06, 0.01),
-        Column("95 % interval", interval, "metres", 0.1),
-        Column("statues", np.sum, "statue", 0.01),
+        Column(np.median, "metres", 0.06, 0.01),
+        Column(interval, "metres", 0.1),
+        Column(np.sum, "statue", 0.01),
     ),
     figure=Figure(
         "metres",
@@ -140,9 +142,7 @@ LAB = Lab(
         "What surprised the student is a fact of the runs, with its number.",
         "The student says what the experiment cannot show.",
     ),
-    robot="hoppers",
     shown=ENDS,
-    best="metres",
     separate=separate,
     redone=8,
     strategy="ex08_openai_es/openai_es.py",

@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
-from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import Answers, Column, Condition, Data, Figure, Judged, Lab
-from botschool.labs.judging import WHY, choice, larger, number, one_of, p_value, winners
+from botschool.labs.declare import Column, Condition, Figure, Lab, Run
+from botschool.labs.judging import (
+    Answers,
+    Data,
+    Judged,
+    Statement,
+    larger,
+    one_of,
+    p_value,
+    winners,
+)
 from botschool.labs.measuring import play_again, seconds_per_million
-from botschool.wrappers import keywords
 
 GOALS = {"dense": -200.0, "sparse": 90.0, "long": 1000.0}
 
 
-def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
+def reference(run: Run, answers: Answers) -> dict[str, float]:
     """Return the steps until the goal, whether it is reached, and the return in new episodes."""
     stat = np.asarray(run["stat"])
     reached = stat[:, 2] >= GOALS[run["condition"].split()[0]]
@@ -62,16 +68,14 @@ def evolution(problem: str) -> Condition:
     environment, steps, hidden = PROBLEMS[problem]
     network = f"nhiddens={hidden}, bias=1, afunction=2, out_type=3, winit=1, normalize=1, clip=1"
     policy = f"episodes=1, pepisodes=20, maxsteps={steps}, {network}"
-    place = 2 * list(PROBLEMS).index(problem)
-    return Condition.of(f"{problem} evolution", environment, policy, ES[problem], x=place)
+    return Condition.of(f"{problem} evolution", environment, policy, ES[problem])
 
 
 def gradient(problem: str) -> Condition:
     """Return a condition: PPO with two layers of 64 neurons."""
     environment, (msteps, ppo) = PROBLEMS[problem][0], PPO[problem]
     environment = f"botschool/{environment}" if problem == "long" else environment
-    place = 2 * list(PROBLEMS).index(problem) + 1
-    return Condition.trained(f"{problem} gradient", environment, msteps, keywords(ppo), place)
+    return Condition.trained(f"{problem} gradient", environment, msteps, ppo)
 
 
 def speeds(answers: Answers) -> tuple[dict[str, float], list[str]] | None:
@@ -127,34 +131,22 @@ NEEDS = {problem: tuple(f"{problem} {method}" for method in METHODS) for problem
 """Problem -> its two conditions."""
 CONDITIONS = tuple(make(problem) for problem in PROBLEMS for make in (evolution, gradient))
 ALL = tuple(condition.name for condition in CONDITIONS)
-SECONDS, *OTHERS = (
-    number(f"seconds-{each.replace(' ', '-')}", f"The seconds of {each}", 0, 10_000) for each in ALL
-)
 LAB = Lab(
     number=14,
     conditions=CONDITIONS,
-    predictions=(
-        *(choice(f"predicted-{each}", f"Which needs fewer steps, {each}") for each in PROBLEMS),
-        number("predicted-changes", "How many answers change with seconds", 0, 3),
-        WHY,
-    ),
-    fields=(
-        *(
-            larger(each, f"Which needs fewer steps, {each}", 4, "steps", NEEDS[each], METHODS[::-1])
-            for each in PROBLEMS
-        ),
-        p_value("p", "The p of the permutation test", 3, "steps", NEEDS["long"]),
-        replace(SECONDS, points=4, needs=NEEDS["dense"], judge=timed),
-        *OTHERS,
-        number("changes", "How many answers change with seconds", 0, 3, 6, ALL, changes),
-    ),
+    statements={
+        **{each: larger(4, "steps", NEEDS[each], METHODS[::-1]) for each in PROBLEMS},
+        "p": p_value(3, "steps", NEEDS["long"]),
+        "seconds-dense-evolution": Statement(4, NEEDS["dense"], timed),
+        "changes": Statement(6, ALL, changes),
+    },
     measures={"steps": 1e-6, "reached": 1e-6, "fresh": 1e-3},
     reference=reference,
     unseen=(evolution("dense"), gradient("dense")),
     columns=(
-        Column("reached", np.sum, "reached", 0.01),
-        Column("median steps (thousands)", np.median, "steps", 0.6, 0.002, unit=1000),
-        Column("median return in new episodes", np.median, "fresh", 0.6, 0.002),
+        Column(np.sum, "reached", 0.01),
+        Column(np.median, "steps", 0.6, 0.002, unit=1000),
+        Column(np.median, "fresh", 0.6, 0.002),
     ),
     figure=Figure("steps", ALL, ("step",)),
     rubric=(
@@ -162,8 +154,6 @@ LAB = Lab(
         "The advice names the problem's rewards, its length, and what a step costs.",
         "The student says what the three problems and these settings cannot show.",
     ),
-    robot="runs",
     shown=("sparse evolution", "long evolution"),
-    best="fresh",
     redone=8,
 )

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from botschool.labs.declare import Answers, Column, Condition, Data, Figure, Judge, Judged, Lab
+from botschool.labs.declare import Column, Condition, Figure, Lab, Run
 from botschool.labs.judging import (
-    WHY,
-    choice,
+    Answers,
+    Data,
+    Judged,
+    Statement,
     larger,
     mean_interval,
     mean_over,
-    number,
     one_of,
     p_value,
     side,
@@ -27,7 +26,7 @@ def historical(matrix: np.ndarray) -> float:
     return float(sum(row[:g].mean() for g, row in enumerate(gains, 1)))
 
 
-def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
+def reference(run: Run, answers: Answers) -> dict[str, float]:
     """Return historical progress with and without generation 0, and global progress."""
     matrix = chases(run, best=5).mean(axis=(1, 3))
     return {
@@ -38,6 +37,7 @@ def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
 
 
 WHO = ("random", "best")
+RANDOM = WHO[:1]
 
 
 def condition(who: str) -> Condition:
@@ -50,48 +50,38 @@ def condition(who: str) -> Condition:
         f"nrobots=2, heterogeneous=1, episodes=1, pepisodes=1, {network}",
         f"{sizes}, stepsize=0.02, noiseStdDev=0.05, evolving='{who}', saveeach=4",
         "coevo2",
-        float(WHO.index(who)),
     )
 
 
-def above_zero(measure: str) -> Judge:
-    """Judge whether a measure's mean over the runs of `random` lies above 0."""
+def above_zero(points: int, measure: str) -> Statement:
+    """Ask whether a measure's mean over the runs of `random` lies above 0."""
 
     def judge(data: Data, answers: Answers) -> Judged:
         right = side(mean_interval(data["random"][measure]), 0, ("yes", "no, fewer"))
         told = f"look where the interval of the mean of {measure} lies, below 0, above or around."
         return one_of(right, told)
 
-    return judge
+    return Statement(points, RANDOM, judge)
 
 
-RANDOM = ("random",)
-AHEAD = above_zero("historical")
-FIRST = mean_over(RANDOM, "historical - later", 0.006, "your ten runs of random")
 LAB = Lab(
     number=15,
     conditions=tuple(condition(who) for who in WHO),
-    predictions=(
-        choice("predicted-ancient", "Whether later predators beat more ancient prey"),
-        choice("predicted-who", "Who makes more progress"),
-        number("predicted-gain", "The mean historical progress", -2, 2),
-        WHY,
-    ),
-    fields=(
-        choice("ancient", "Whether later predators beat more ancient prey", 6, RANDOM, AHEAD),
-        choice("without", "The same without generation 0", 6, RANDOM, above_zero("later")),
-        number("due", "What is due to generation 0", -5, 5, 4, RANDOM, FIRST),
-        larger("who", "Who makes more progress", 5, "global", WHO),
-        p_value("p", "The p of the permutation test", 4, "global", WHO),
-    ),
+    statements={
+        "ancient": above_zero(6, "historical"),
+        "without": above_zero(6, "later"),
+        "due": mean_over(4, RANDOM, "historical - later", 0.006, "your ten runs of random"),
+        "who": larger(5, "global", WHO),
+        "p": p_value(4, "global", WHO),
+    },
     measures={"historical": 1e-3, "later": 1e-3, "global": 1e-3},
     reference=reference,
     unseen=(condition("best"),),
     columns=(
-        Column("mean historical", np.mean, "historical", 0.006, 0.01),
-        Column("95 % interval", mean_interval, "historical", 0.01),
-        Column("mean later", np.mean, "later", 0.006, 0.01),
-        Column("mean global", np.mean, "global", 0.006, 0.01),
+        Column(np.mean, "historical", 0.006, 0.01),
+        Column(mean_interval, "historical", 0.01),
+        Column(np.mean, "later", 0.006, 0.01),
+        Column(np.mean, "global", 0.006, 0.01),
     ),
     figure=Figure("historical", WHO, ("progress", "fitness")),
     rubric=(
@@ -99,8 +89,6 @@ LAB = Lab(
         "The student says what generation 0 is, and why beating it proves little.",
         "What surprised the student is a fact of the runs, with its number.",
     ),
-    robot="co-evolutions",
     shown=WHO,
-    best="global",
     redone=4,
 )

@@ -11,10 +11,10 @@ from typing import Any
 
 from botschool import problems
 from botschool.grading.report.paper import paper
-from botschool.labs.check import Checked
-from botschool.labs.declare import WORDS, Field, Lab
+from botschool.labs.check import Check
+from botschool.labs.declare import WORDS, Lab
+from botschool.labs.fields import Field
 from botschool.labs.folder import Place
-from botschool.labs.saved import SavedRun
 from botschool.labs.sheet import Sheet, Unreadable
 from botschool.output import save_bytes
 
@@ -28,24 +28,23 @@ b.answer { color: var(--answer); } main { --answer: #0072b2; } li { margin: .3re
 """
 
 
-def write_report(place: Place, checked: Checked, folder: Path) -> Path:
+def write_report(place: Place, checked: Check, folder: Path) -> Path:
     """Write report.html into the laboratory's folder; folder: for temporary files."""
-    lab, sheet = place.lab, place.sheet()
-    answers = checked.answers
+    lab, sheet, fields = place.lab, checked.sheet, place.lab.fields.values()
     name = escape(sheet.text_of("name"))
     body = [
         f"<h1>{escape(lab.title)}</h1><p>Laboratory {lab.number}, {name}</p>",
-        _told("You predicted", lab.predictions, answers),
-        _told("You found", lab.fields, answers),
+        _told("You predicted", [f for f in fields if f.predicts], checked.answers),
+        _told("You found", [f for f in fields if not f.predicts], checked.answers),
     ]
     if checked.picture:
         data = b64encode(checked.picture).decode()
         body.append(f'<img alt="The figure of the runs" src="data:image/png;base64,{data}">')
     body += ["<h2>The numbers</h2>", _table(sheet, lab)]
-    if shown := "".join(_replay(lab, checked, name, folder) for name in lab.shown):
+    if shown := "".join(_replay(checked, name, folder) for name in lab.shown):
         body += ["<h2>The robots</h2>", shown]
-    if checked.words:
-        body += ["<h2>In your words</h2>", f"<blockquote>{_inline(checked.words)}</blockquote>"]
+    if sheet.words:
+        body += ["<h2>In your words</h2>", f"<blockquote>{_inline(sheet.words)}</blockquote>"]
     body.append(f"<h2>Points</h2>{_points(checked)}")
     path = place.folder / "report.html"
     page = paper(lab.title, "\n".join(body), _STYLE, scripts=True)
@@ -53,15 +52,17 @@ def write_report(place: Place, checked: Checked, folder: Path) -> Path:
     return path
 
 
-def _told(title: str, fields: tuple[Field, ...], answers: dict[str, Any]) -> str:
+def _told(title: str, fields: list[Field], answers: dict[str, Any]) -> str:
     """Return answers of the sheet as a list, each after what it answers; texts are quoted."""
     there = [field for field in fields if field.id in answers]
     rows = [
-        f'<li>{_inline(f.what)}: <b class="answer">{_inline(_shown(answers[f.id]))}</b></li>'
+        f'<li>{_inline(f.what)} <b class="answer">{_inline(_shown(answers[f.id]))}</b></li>'
         for f in there
         if f.kind != "text"
     ]
-    texts = [f"<blockquote>{_inline(answers[f.id])}</blockquote>" for f in there if f.words]
+    texts = [
+        f"<blockquote>{_inline(answers[f.id])}</blockquote>" for f in there if f.kind == "text"
+    ]
     nothing = "" if there else "<p>Nothing is written yet.</p>"
     return f"<h2>{title}</h2><ul>{''.join(rows)}</ul>{''.join(texts)}{nothing}"
 
@@ -72,7 +73,7 @@ def _shown(answer: Any) -> str:
 
 def _table(sheet: Sheet, lab: Lab) -> str:
     """Return the sheet's table, with intervals, as the student has filled it in."""
-    rows = [["", *(column.title for column in lab.columns)]]
+    rows = [["", *lab.titles]]
     for condition in lab.conditions:
         with suppress(Unreadable):
             rows.append([condition.name, *sheet.row(condition.name)])
@@ -80,17 +81,17 @@ def _table(sheet: Sheet, lab: Lab) -> str:
     return f"<table>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>"
 
 
-def _points(checked: Checked) -> str:
+def _points(checked: Check) -> str:
     rows = [
         f"<tr><td>{part.name}</td><td>{part.points:g} of {part.max_points:g}</td>"
         f"<td>{'<br>'.join(map(escape, part.messages))}</td></tr>"
-        for part in checked.parts
+        for part in checked.parts.values()
     ]
     rows.append(f"<tr><td>words</td><td>{WORDS} points: your instructor's</td><td></td></tr>")
     return f"<table>{''.join(rows)}</table><p>{checked.points:g} of 90 points.</p>"
 
 
-def _replay(lab: Lab, checked: Checked, name: str, folder: Path) -> str:
+def _replay(checked: Check, name: str, folder: Path) -> str:
     """Return a frame with the page that replays the best proven robot of a condition."""
     from botschool.render.replay import write_replay
     from botschool.render.scenes import scene_of, with_frames
@@ -98,7 +99,7 @@ def _replay(lab: Lab, checked: Checked, name: str, folder: Path) -> str:
     runs = checked.runs.get(name)
     if not runs:
         return ""
-    best: SavedRun = runs[int(checked.data[name][lab.best].argmax())]
+    best = max(runs, key=lambda run: run.stat[-1, 2])
     experiment = best.condition.load()
     problem = problems.of(experiment)
     policy = problem.policy(experiment.policy)

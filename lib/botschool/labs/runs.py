@@ -7,7 +7,6 @@ import os
 import runpy
 import time
 from collections.abc import Callable
-from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
@@ -42,25 +41,21 @@ def make_runs(lab: Lab, sheet: Sheet, folder: Path, workers: int, replications: 
     _claim(lab, sheet, folder)
     total = replications * len(lab.conditions)
     done = {
-        name: [run.seed for run in runs if run.seed in seeds[name]]
+        name: sum(run.seed in seeds[name] for run in runs)
         for name, runs in own_runs(lab, sheet, folder).items()
     }
-    ready = sum(map(len, done.values()))
-    print(f"{total} {lab.robot}, seeds from your name and your prediction; {ready} are there.")
+    ready = sum(done.values())
+    print(f"{total} runs, seeds from your name and your prediction; {ready} are there.")
     student = own_functions(folder.parent / LEARN)
     began, made = time.monotonic(), 0
     for number, condition in enumerate(lab.conditions, 1):
-        todo = [s for s in seeds[condition.name] if s not in done[condition.name]]
-        if not todo:
+        wanted, place = seeds[condition.name], folder / condition.name
+        if done[condition.name] == len(wanted):
             continue
-        place = folder / condition.name
-        finished = condition.maker.make_all(
-            condition, seeds[condition.name], place, workers, student
-        )
-        if not finished:
+        if not condition.maker.make_all(condition, wanted, place, workers, student):
             print("Stopped; what is done is saved. The same command goes on.")
             return False
-        made += len(todo)
+        made += len(wanted) - done[condition.name]
         left = (time.monotonic() - began) / made * (total - ready - made)
         bar = "=" * round(20 * (ready + made) / total)
         print(
@@ -95,9 +90,9 @@ def changed(lab: Lab, sheet: Sheet, folder: Path) -> str:
         return ""
     if prediction == sheet.prediction:
         return "The runs belong to another name or course: put back what sheet.md had there."
-    before, now = prediction.split(), sheet.prediction.split()
-    pairs = zip(before, now, strict=False)
-    equal = len([*takewhile(lambda pair: pair[0] == pair[1], pairs)])
+    before = prediction.split()
+    pairs = zip(before, sheet.prediction.split(), strict=False)
+    equal = next((i for i, (old, new) in enumerate(pairs) if old != new), 0)
     said = " ".join(before[max(0, equal - 5) : equal + 15])
     return f"The prediction has changed since the runs were made. They belong to '... {said} ...'."
 

@@ -3,78 +3,75 @@
 from __future__ import annotations
 
 import hashlib
+import math
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 from botschool.errors import BotschoolError
-from botschool.labs.declare import Field, Lab
+from botschool.labs.declare import Lab
+from botschool.labs.fields import BOX, Field, parts_of
 from botschool.sandbox.inside import read_inside
 
-_MARKER = re.compile(r"<!--\s*field:\s*([\w-]+)\s*-->")
 _ANSWER = re.compile(r"answer:(.*)", re.IGNORECASE)
-_BOX = re.compile(r"\[\s{0,9}([xX]?)\s{0,9}\]\s{0,9}([^\[\n]+)")
 _NUMBER = re.compile(r"(?<![\w.])[-+\u2212]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?(?![\w.]*\d)")
 MAX_BYTES = 200_000
 MAX_ANSWER = 100
 """Characters of an answer in numbers."""
+MIN_WORDS = 10
+"""Words of a text."""
 
 
 class Unreadable(BotschoolError):
     """A field is empty or cannot be read; the text is a sentence."""
 
 
+def made_by(path: Path) -> str:
+    """Return the command that makes a file of a laboratory's folder."""
+    return f"botschool lab {path.resolve().parent.name.removeprefix('lab').lstrip('0')} start"
+
+
 @dataclass(frozen=True)
 class Sheet:
-    """The text of a sheet, and the answers in it."""
+    """The text of a sheet, with line ends normalised, and the answers in it."""
 
     text: str
-    """The sheet's text, with line ends normalised."""
 
     @classmethod
     def read(cls, path: Path) -> Sheet:
         """Read a sheet. Raises BotschoolError."""
         try:
             content = read_inside(path.parent, path.name, MAX_BYTES)
+            if len(content) > MAX_BYTES:
+                raise BotschoolError(f"{path} is larger than {MAX_BYTES // 1000} kB: shorten it.")
+            text = content.decode("utf-8-sig")
         except FileNotFoundError:
-            lab = path.resolve().parent.name.removeprefix("lab").lstrip("0")
-            raise BotschoolError(
-                f"There is no {path}: botschool lab {lab} start makes it."
-            ) from None
+            raise BotschoolError(f"There is no {path}: {made_by(path)} makes it.") from None
         except OSError as error:
             raise BotschoolError(
                 f"{path} cannot be read ({error.strerror or 'no regular file'}): it must be a "
                 "file of its own, and no link."
             ) from None
-        if len(content) > MAX_BYTES:
-            raise BotschoolError(f"{path} is larger than {MAX_BYTES // 1000} kB: shorten it.")
-        try:
-            text = content.decode("utf-8-sig")
         except UnicodeDecodeError:
             raise BotschoolError(f"{path} is not UTF-8 text: save it as UTF-8.") from None
         return cls("\n".join(text.splitlines()))
 
-    def section(self, title: str) -> str:
-        """Return the text under the heading `## title`; "" if there is none."""
-        pattern = rf"^## +{re.escape(title)}[^\n]*\n(.*?)(?=^## |\Z)"
-        found = re.search(pattern, self.text, re.MULTILINE | re.DOTALL | re.IGNORECASE)
-        return found[1] if found else ""
-
     @property
     def prediction(self) -> str:
         """Return the prediction without differences that editors cause: spaces, line ends."""
-        text = uncommented(self.section("Prediction"), " ")
+        section = r"^## +Prediction[^\n]*\n(.*?)(?=^## |\Z)"
+        found = re.search(section, self.text, re.MULTILINE | re.DOTALL | re.IGNORECASE)
+        text = uncommented(found[1] if found else "", " ")
         return " ".join(text.replace("[X]", "[x]").split())
 
     def raw(self, id: str) -> str:
         """Return the lines of a field: up to the next field, heading or table."""
-        markers = list(_MARKER.finditer(self.text))
-        for marker, after in zip(markers, [*markers[1:], None], strict=False):
-            if marker[1] == id:
-                part = self.text[marker.end() : after.start() if after else None]
-                return re.split(r"^#|^\|", part, maxsplit=1, flags=re.MULTILINE)[0]
+        for name, _, part in parts_of(self.text):
+            if name == id:
+                return part
         raise Unreadable(
             f"The field {id} is not in sheet.md: put its line <!-- field: {id} --> back."
         )
@@ -84,24 +81,16 @@ class Sheet:
         raw = self.raw(field.id)
         if field.kind == "number":
             found = _ANSWER.search(raw)
-            number = numbers_in(found[1] if found else "", field.what, 1)[0]
-            if not field.low <= number <= field.high:
-                raise Unreadable(
-                    f"{field.what}: {number:g} is out of range, write a number from "
-                    f"{field.low:g} to {field.high:g}."
-                )
-            return number
+            return numbers_in(found[1] if found else "", field.what, 1)[0]
         if field.kind == "choice":
-            chosen = [label.strip() for mark, label in _BOX.findall(raw) if mark]
+            chosen = [label.strip() for mark, label in BOX.findall(raw) if mark]
             if len(chosen) != 1:
                 how = "nothing is" if not chosen else "more than one box is"
-                raise Unreadable(f"{field.what}: {how} marked, put [x] before exactly one.")
+                raise Unreadable(f"{field.what} Here {how} marked: put [x] before exactly one.")
             return chosen[0]
         text = _quoted(raw)
-        if len(re.findall(r"\w+", text)) < max(1, field.words):
-            raise Unreadable(
-                f"{field.what}: write at least {max(1, field.words)} words after the sign >."
-            )
+        if len(re.findall(r"\w+", text)) < MIN_WORDS:
+            raise Unreadable(f"{field.what} Write at least {MIN_WORDS} words after the sign >.")
         return text
 
     @property
@@ -112,7 +101,7 @@ class Sheet:
         except Unreadable:
             return ""
 
-    def values(self, fields: tuple[Field, ...]) -> tuple[dict[str, Any], list[str]]:
+    def values(self, fields: Iterable[Field]) -> tuple[dict[str, Any], list[str]]:
         """Return the readable answers by id, and a sentence on each other field."""
         found, missing = {}, []
         for field in fields:
@@ -150,17 +139,15 @@ def _quoted(raw: str) -> str:
 def numbers_in(text: str, what: str, count: int, where: str = "after answer:") -> tuple[float, ...]:
     """Return the numbers in an answer. Raises Unreadable unless there are `count`."""
     text = re.sub(r"^answer:", "", text.strip(), flags=re.IGNORECASE).strip()
+    numbers = [float(each.replace("\u2212", "-")) for each in _NUMBER.findall(text[:MAX_ANSWER])]
+    good = len(numbers) == count and all(map(math.isfinite, numbers)) and len(text) <= MAX_ANSWER
+    if good and not re.search(r"\d,\d", text):
+        return tuple(numbers)
     asked = "a number" if count == 1 else f"{count} numbers, as 1.5 to 2.5,"
-    if not text:
-        raise Unreadable(f"{what}: empty, write {asked} {where}.")
-    if len(text) > MAX_ANSWER:
-        raise Unreadable(f"{what}: '{text[:30]} ...' is too long, write {asked} {where}.")
-    if re.search(r"\d,\d", text):
-        raise Unreadable(f"{what}: write a point instead of the comma in '{text[:30]}'.")
-    found = _NUMBER.findall(text)
-    if len(found) != count:
-        raise Unreadable(f"{what}: '{text[:30]}' cannot be read, write {asked} {where}.")
-    return tuple(float(each.replace("\u2212", "-")) for each in found)
+    wrong = f"'{text[:30]}' cannot be read" if text else "It is empty"
+    if re.search(r"\d,\d", text[:MAX_ANSWER]):
+        asked = "a point instead of the comma"
+    raise Unreadable(f"{what} {wrong}: write {asked} {where}.")
 
 
 def base_seed(sheet: Sheet, lab: Lab) -> int:
@@ -190,12 +177,9 @@ def seeds_of(sheet: Sheet, lab: Lab, replications: int | None = None) -> dict[st
 
 def check_specific(sheet: Sheet, lab: Lab) -> None:
     """Raise BotschoolError unless the sheet has name, course and a complete prediction."""
-    try:
-        named, _ = sheet.text_of("name"), sheet.text_of("course")
-    except Unreadable as error:
-        raise BotschoolError(str(error)) from None
+    named, _ = sheet.text_of("name"), sheet.text_of("course")
     if not named:
         raise BotschoolError("Write your name first (sheet.md, after 'Name:').")
-    _, missing = sheet.values(lab.predictions)
+    _, missing = sheet.values(field for field in lab.fields.values() if field.predicts)
     if missing:
         raise BotschoolError(f"Write your prediction first (sheet.md, 'Prediction'). {missing[0]}")
