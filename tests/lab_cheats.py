@@ -133,9 +133,7 @@ def without(lab, *conditions, evidence):
     return FULL | {
         "runs": round(evidence + 10 * (most - len(conditions)) / most, 1),
         "measurements": round(10 + 15 * kept / len(all_cells), 1),
-        "conclusion": sum(
-            s.points for s in lab.statements.values() if not {*conditions} & {*s.needs}
-        ),
+        "conclusion": sum(s.points for s in states if not {*conditions} & {*s.needs}),
     }
 
 

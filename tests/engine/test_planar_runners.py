@@ -185,3 +185,18 @@ def test_they_run_ten_lengths_without_falling(file):
     returns, upright = robot.ways(2_000_000, 50)
     assert (returns * robot.seconds > robot.runner.lengths).mean() >= 0.9
     assert upright.mean() >= 0.9
+
+
+def test_the_pay_for_standing_is_paid_for_each_step_without_a_fall():
+    def returns(options):
+        problem = problems.make("PlanarHopper-v5", options=options)
+        policy = problem.policy(PolicyConfig(nhiddens=5, maxsteps=60))
+        batch = problems.Episodes.of(np.array([7], dtype=np.uint64), 3)
+        return problem.evaluate(policy, policy.initial(3)[None], None, batch, 60)
+
+    plain, paid = returns(""), returns("alive=0.5")
+    assert (paid.steps == plain.steps).all()
+    assert np.array_equal(paid.fitness, plain.fitness + 0.5 * (plain.steps - (plain.steps < 60)))
+    for options in ("bonus=1", "alive='x'", "alive=1e9"):
+        with pytest.raises(problems.BotschoolError):
+            problems.make("PlanarHopper-v5", options=options)

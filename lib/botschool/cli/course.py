@@ -8,6 +8,8 @@ from typing import Annotated
 import typer
 
 app = typer.Typer()
+LAB = "lab"
+"""Begins the name of a laboratory, as in lab9."""
 
 Submission = Annotated[
     str | None,
@@ -45,11 +47,16 @@ def start(
             help="Open the exercise's page with figures in your browser, if there is a display.",
         ),
     ] = True,
+    name: Annotated[str | None, typer.Option(help="Of a laboratory (labN): your name.")] = None,
 ) -> None:
     """Print what to read, where to write and which command comes next; open the page."""
     from botschool.grading.commands import start_command
+    from botschool.labs import commands as labs
 
-    start_command(exercise, notebook, opens)
+    if exercise.startswith(LAB):
+        labs.start_command(exercise, name)
+    else:
+        start_command(exercise, notebook, opens)
 
 
 @app.command(epilog="Example: botschool reset 3")
@@ -74,10 +81,15 @@ def grade(
         ),
     ] = False,
 ) -> None:
-    """Grade your solution of an exercise, or of one task."""
+    """Grade your solution of an exercise, of one task, or a laboratory (labN)."""
     from botschool.grading.commands import grade_command
+    from botschool.labs import commands as labs
 
-    if not grade_command(what, submission, json, debug):
+    if what.startswith(LAB):
+        full = labs.check_command(what, json, submission and Path(submission))
+    else:
+        full = grade_command(what, submission, json, debug)
+    if not full:
         raise typer.Exit(1)
 
 
@@ -142,15 +154,18 @@ def show(
 ) -> None:
     """Draw what you have done in results/exNN and open it: all of it, or a task beside ours.
 
-    Of a finished exercise, the command runs your file and shows what it makes.
+    Of a finished exercise, the command runs your file and shows what it makes; of a laboratory
+    (labN), it writes the report.
     """
     from botschool.grading.commands import answers_command, show_command
-    from botschool.labs.commands import lead_to
+    from botschool.labs import commands as labs
 
-    if answers:
+    if what.startswith(LAB):
+        labs.report_command(what)
+    elif answers:
         answers_command(what)
     else:
-        lead_to(show_command(what, submission, opens))
+        labs.lead_to(show_command(what, submission, opens))
 
 
 @app.command(epilog="Example: botschool trust ~/course")

@@ -38,7 +38,7 @@ def start_command(number: str, name: str | None = None, course: str | None = Non
     if not name and sys.stdin.isatty():
         name = " ".join(input("Your name (the seeds of your runs follow from it): ").split())
     if not name:
-        raise BotschoolError(f'Say your name: botschool lab {number} start --name "Ada".')
+        raise BotschoolError(f'Say your name: botschool lab {place.lab.number} start --name "Ada".')
     kept = start(place, name, course or COURSE)
     keep_name(here, name)
     for path in kept:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -20,6 +19,7 @@ from botschool.sandbox.scratch import MAX_PICTURE, MAX_PICTURE_SIDE
 
 SECONDS = 30
 """Processor seconds for all calls of one file."""
+PICTURE = "figure.png"
 ANSWERS = tuple(f"botschool.labs.lab{number:02}" for number in NUMBERS)
 """Modules with our own measures: they do not exist in the child process."""
 
@@ -61,41 +61,26 @@ def measured(student: Student, run: dict[str, Any], names: tuple[str, ...]) -> d
 
 def drawn_figure(student: Student, measurements: dict[str, Any]) -> dict[str, Any]:
     """Return what figure(measurements) shows: axes' names, points, lines, PNG. Raises Wrong."""
-    found = student.run(_inspect, measurements, said="figure(measurements)")
+    found = student.run(_inspect, measurements, PICTURE, said="figure(measurements)")
+    pictures = dict(student.pictures())
+    if PICTURE not in pictures:
+        raise Wrong(
+            f"the picture has more than {MAX_PICTURE // 1000} kB, or more than {MAX_PICTURE_SIDE} "
+            "pixels on a side: draw a smaller figure."
+        )
     try:
-        told: dict[str, Any] = {
+        return {
             "labels": [(str(x), str(y)) for x, y in found["labels"]],
             "points": np.asarray(found["points"], dtype=float).reshape(-1, 2),
             "verticals": np.asarray(found["verticals"], dtype=float).ravel(),
-            "png": np.asarray(found["png"], dtype=np.uint8).tobytes(),
+            "png": pictures[PICTURE],
         }
     except Exception:  # the submission can forge what its child sends
         raise Wrong("figure(measurements) must return a matplotlib figure.") from None
-    check_picture(told["png"])
-    return told
 
 
-def check_picture(content: bytes) -> None:
-    """Raise Wrong unless this is a PNG of bounded size that can be decoded."""
-    from PIL import Image
-
-    if len(content) > MAX_PICTURE:
-        raise Wrong(f"the picture has more than {MAX_PICTURE // 1000} kB: draw a smaller figure.")
-    try:
-        with Image.open(io.BytesIO(content), formats=["PNG"]) as picture:
-            side = max(picture.size)
-            if side <= MAX_PICTURE_SIDE:
-                picture.load()
-    except Exception:  # a damaged picture can fail in any way
-        raise Wrong("the picture is no PNG: return matplotlib's own figure.") from None
-    if side > MAX_PICTURE_SIDE:
-        raise Wrong(f"the picture has {side} pixels on a side: at most {MAX_PICTURE_SIDE} count.")
-
-
-def _inspect(student: Any, measurements: dict[str, Any]) -> dict[str, Any]:
-    """Runs in the child: draw the figure, then read the points from its axes."""
-    import io
-
+def _inspect(student: Any, measurements: dict[str, Any], file: str) -> dict[str, Any]:
+    """Runs in the child: draw the figure into a file, then read the points from its axes."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -114,11 +99,9 @@ def _inspect(student: Any, measurements: dict[str, Any]) -> dict[str, Any]:
             elif len(set(places[:, 0])) == 1 < len(places):
                 verticals.append(float(places[0, 0]))
         points += [np.asarray(each.get_offsets(), float) for each in axes.collections]
-    picture = io.BytesIO()
-    figure.savefig(picture, format="png", dpi=100)
+    figure.savefig(file, format="png", dpi=100)
     return {
         "labels": labels,
         "points": np.concatenate(points) if points else np.zeros((0, 2)),
         "verticals": verticals,
-        "png": np.frombuffer(picture.getvalue(), np.uint8),
     }

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -247,14 +245,12 @@ def shown_name(entry: Entry) -> str:
 
 def results_csv(league: League) -> bytes:
     """Return all results with the names of the files as CSV, for the instructor."""
-    from botschool.grading.classes.tables import safe_cell
+    from botschool.grading.classes.tables import made_table
 
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(["discipline", "rank", "name", "result", "unit", "file"])
+    rows: list[list[object]] = [["discipline", "rank", "name", "result", "unit", "file"]]
     for discipline, places in league.tables.items():
-        for each in places:
-            name, file = safe_cell(each.entry.name), safe_cell(each.entry.file)
-            row = [discipline, each.rank, name, f"{each.result:.4g}", UNITS[discipline], file]
-            writer.writerow(row)
-    return stream.getvalue().encode("utf-8-sig", "replace")
+        unit = UNITS[discipline]
+        for place in places:
+            entry, result = place.entry, float(f"{place.result:.4g}")
+            rows.append([discipline, place.rank, entry.name, result, unit, entry.file])
+    return made_table(rows)

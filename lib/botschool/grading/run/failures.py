@@ -16,7 +16,7 @@ from botschool.sandbox.inside import read_inside
 
 Place = Callable[[int], str]
 """Return words for the learner for a line of the file."""
-_RUNS = re.compile(r"(?:pass)?\s*#?\s*%run\b")
+_RUNS = re.compile(r"(?:pass)?\s*(?:#\s*)?%run\b")
 MAX_LINE = 100
 """Characters to show of a line."""
 MAX_FILE = 2**20
