@@ -119,6 +119,7 @@ def test_slow_expressions_are_found(expression, flags):
     assert slow(expression, flags)
 
 
+@pytest.mark.slow
 def test_no_expression_is_slow():
     found = expressions()
     assert len(found) > 50
