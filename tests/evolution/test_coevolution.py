@@ -140,43 +140,6 @@ def test_entries_of_the_fitness_matrix_can_be_played_again(whole):
     assert len(different) > 5
 
 
-def test_the_stat_file_and_the_best_are_those_of_every_generation(whole):
-    coevolution = Coevolution(whole.own, 3)
-    steps, calls, rows, best = 0, 0, [], -np.inf
-    evaluate = coevolution.problem.evaluate
-
-    def counting(*given):
-        nonlocal steps, calls
-        outcome = evaluate(*given)
-        steps, calls = steps + int(outcome.steps.sum()), calls + 1
-        return outcome
-
-    coevolution.problem.evaluate = counting
-    while coevolution.record.generation < whole.own.algo.ngenerations:
-        coevolution.advance()
-        if coevolution.record.generation == len(rows):
-            continue  # everyone has met everyone
-        algorithm = coevolution.algorithm
-        if "coevo" in whole.algo:
-            means, networks = algorithm.fitness.mean(axis=1), algorithm.parameters
-            values = means.max(), means.mean()
-        else:
-            values, networks = algorithm.fitness[0], algorithm.centres
-        best = max(best, values[0])
-        rows.append([steps, best, best, *values, np.abs(networks).mean()])
-    assert np.load(whole.folder / "statS3.npy").reshape(-1, 6) == pytest.approx(np.array(rows))
-    if whole.algo == "coevo2":
-        assert calls == 1 + 5 * 21
-        last = coevolution.record.last
-        assert last["predators"] + last["prey"] == pytest.approx(1)
-        expected = np.concatenate(algorithm.parameters[:, 0])
-    elif whole.algo == "coevo":
-        expected, _ = algorithm.best()
-    else:
-        expected = np.concatenate(algorithm.champions)
-    assert np.array_equal(np.load(whole.folder / "bestgS3.npy"), expected)
-
-
 @pytest.mark.slow
 def test_event_files_hold_local_progress_and_both_sides(tmp_path, own):
     from tensorboard.backend.event_processing.event_accumulator import EventAccumulator
@@ -249,18 +212,6 @@ def test_a_request_to_stop_at_any_moment_does_not_show(whole, tmp_path):
         assert asked == moment + 1
         assert evolve(Coevolution(whole.own, 3), folder, resume=True)
         assert same_but_for_stops(whole.folder, folder)
-
-
-def test_phases_are_those_of_the_experiment(tmp_path):
-    """... wherever the user has stopped it in between."""
-    coevolution, phases = Coevolution(experiment(tmp_path, "maxsolvestar"), 3), []
-    (tmp_path / "run").mkdir()
-
-    def report(run):
-        phases.append(run.algorithm.phase)
-
-    assert evolve(coevolution, tmp_path / "run", report=report, generations=5)
-    assert phases[1:] == [0, 0, 0, 1, 1]
 
 
 def told(process, generations):

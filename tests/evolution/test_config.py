@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 
 from botschool import config
 from botschool.config import (
-    Coevo2Config,
     Exp,
     Experiment,
     OpenAIESConfig,
@@ -25,94 +24,6 @@ from botschool.config import (
 from botschool.errors import BotschoolError
 
 EXPERIMENTS = sorted((Path(__file__).parents[2] / "data" / "experiments").glob("*.ini"))
-
-ARENA_DEFAULTS = {
-    "width": 400.0,
-    "height": 400.0,
-    "steps": 1000,
-    "sensors": "infrared",
-    "noise": 0.0,
-    "reward": "avoid",
-    "distance": 60.0,
-    "collisions": "block",
-    "light_distance": 200.0,
-    "laser_beams": 8,
-    "laser_angle": 360.0,
-    "laser_range": 500.0,
-    "robot1": "",
-    "wall1": "",
-    "cylinder1": "",
-    "light1": "",
-    "zone1": "",
-}
-POLICY_DEFAULTS = {
-    "nrobots": 1,
-    "heterogeneous": 0,
-    "episodes": 1,
-    "pepisodes": 1,
-    "maxsteps": 1000,
-    "pmaxsteps": 0,
-    "nhiddens": 50,
-    "nhiddens2": 0,
-    "nlayers": 1,
-    "bias": 0,
-    "out_type": 2,
-    "nbins": 1,
-    "architecture": 0,
-    "afunction": 2,
-    "winit": 0,
-    "action_noise": 0,
-    "action_noise_range": 0.01,
-    "normalize": 0,
-    "clip": 0,
-    "wrange": 1.0,
-    "filters": "16, 32",
-    "kernels": "8, 4",
-    "strides": "4, 2",
-}
-OPENAI_ES_DEFAULTS = {
-    "maxmsteps": 1,
-    "stepsize": 0.01,
-    "samplesize": 20,
-    "noiseStdDev": 0.02,
-    "wdecay": 0,
-    "symseed": 1,
-    "saveeach": 60,
-}
-SSS_DEFAULTS = {"maxmsteps": 1, "popsize": 20, "mutrate": 0.02, "saveeach": 60}
-GAUSSIAN_DEFAULTS = {"maxmsteps": 1, "popsize": 0, "sigma": 0.3, "saveeach": 60}
-NATURAL_DEFAULTS = GAUSSIAN_DEFAULTS | {"etamu": 1, "etasigma": 0}
-COEVO2_DEFAULTS = {
-    "ngenerations": 1000,
-    "popsize": 80,
-    "selsize": 10,
-    "samplesize": 20,
-    "stepsize": 0.01,
-    "noiseStdDev": 0.02,
-    "wdecay": 0,
-    "evolving": "best",
-    "saveeach": 100,
-}
-ARCHIVE_DEFAULTS = {
-    "maxmsteps": 75000,
-    "ngenerations": 0,
-    "popsize": 1,
-    "samplesize": 20,
-    "stepsize": 0.01,
-    "noiseStdDev": 0.02,
-    "wdecay": 0,
-    "ncompetitors": 10,
-    "checkoverfiteveryn": 0,
-    "saveeach": 1000,
-}
-COMPETITIVE_DEFAULTS = {
-    "coevo2": COEVO2_DEFAULTS,
-    "archive": ARCHIVE_DEFAULTS
-    | {"addtoarchiveevery": 10, "seldifferentiated": 0, "preferential": 1},
-    "archivestar": ARCHIVE_DEFAULTS
-    | {"popsize": 5, "addtoarchiveevery": 10, "seldifferentiated": 1, "preferential": 1},
-    "maxsolvestar": ARCHIVE_DEFAULTS | {"nphases": 10, "archivelen": 25000},
-}
 
 
 def text(policy="", algo="", exp="environment = CartPole-v1"):
@@ -134,36 +45,6 @@ def refused(path):
     assert sentence.startswith(str(path))
     assert "\n" not in sentence and sentence[-1] in ".?" and sentence[-2] not in ".?"
     return sentence[len(str(path)) :]
-
-
-def test_defaults(tmp_path):
-    for algo, defaults in (
-        ("OpenAI-ES", OPENAI_ES_DEFAULTS),
-        ("SSS", SSS_DEFAULTS),
-        ("CMA-ES", GAUSSIAN_DEFAULTS | {"diagonal": 0, "active": 1}),
-        ("xNES", NATURAL_DEFAULTS),
-        ("sNES", NATURAL_DEFAULTS),
-        *COMPETITIVE_DEFAULTS.items(),
-    ):
-        path = write(tmp_path, text(exp=f"environment = X-v0\nalgo = {algo}"))
-        assert to_dict(load(path)) == {
-            "exp": {
-                "environment": "X-v0",
-                "algo": algo,
-                "robots": "",
-                "wrappers": "",
-                "options": "",
-            },
-            "policy": POLICY_DEFAULTS,
-            "algo": defaults,
-        }
-    assert asdict(Exp("X-v0")) == {
-        "environment": "X-v0",
-        "algo": "OpenAI-ES",
-        "robots": "",
-        "wrappers": "",
-        "options": "",
-    }
 
 
 def test_every_value_is_read_with_its_type(tmp_path):
@@ -212,35 +93,17 @@ def test_ways_to_write_a_file(tmp_path, content):
     assert experiment == Experiment(Exp("CartPole-v1", "SSS"), PolicyConfig(), SSSConfig(popsize=8))
 
 
-def test_file_in_the_style_of_the_original_library(tmp_path):
-    path = write(
-        tmp_path,
-        "[EXP]\nenvironment = ErPredprey\nalgo = coevo2\n\n[ALGO]\nsampleSize = 30\n"
-        "saveeach = 50\n\n[POLICY]\nnrobots = 2\nheterogeneous = 1\narchitecture = 3\n\n\n",
-    )
-    experiment = load(path)
-    assert experiment.algo == Coevo2Config(samplesize=30, saveeach=50)
-    assert experiment.policy == PolicyConfig(nrobots=2, heterogeneous=1, architecture=3)
-
-
 REFUSED = {
     "empty file": ("", "section [EXP] is missing", "add a line [EXP]", "environment = NAME"),
     "no environment": (text(exp=""), "environment is missing", "environment = NAME", "[EXP]"),
     "empty value": (text("bias ="), "line 4", "bias has no value", "0 (no) or 1 (yes)"),
-    "only a comment": (text("bias = # c"), "line 4", "bias has no value"),
-    "empty environment": (text(exp="environment ="), "line 2", "environment has no value"),
     "quoted name": (text(exp="environment = 'X-v0'"), "line 2", "'X-v0'", "without quotes"),
     "unknown section": ("[EXP]\n[POLCY]\n", "line 2", "[POLCY] is unknown", "mean [POLICY]?"),
-    "strange section": ("[qqqq]\n", "line 1", "[qqqq]", "known are [EXP], [POLICY], [ALGO]"),
     "open bracket": ("[EXP\n", "line 1", "[EXP is no section", "brackets"),
     "section twice": (text("[exp]"), "line 4", "[EXP] starts a second time", "line 1", "under"),
     "before sections": ("\nbias = 1\n", "line 2", "bias = 1", "before the first section", "[EXP]"),
     "unknown key": (text("nhidens = 5"), "line 4", "nhidens is no hyper", "mean nhiddens?"),
-    "strange key": (text("qqqq = 5"), "line 4", "qqqq", "known are nrobots, ", ", wrange"),
-    "wrong capitals": (text(algo="NoiseStDev = 1"), "line 6", "NoiseStDev", "mean noiseStdDev?"),
     "wrong section": (text(algo="NHiddens = 5"), "line 6", "belongs in section [POLICY]", "move"),
-    "algo key elsewhere": (text("mutation = 1"), "line 4", "belongs in section [ALGO]", "move"),
-    "algo elsewhere": (text(algo="algo = SSS"), "line 6", "algo belongs in section [EXP]"),
     "other algorithm": (
         text(algo="popsize = 5"),
         "line 6",
@@ -249,18 +112,8 @@ REFUSED = {
         "remove the line, or set algo = CMA-ES",
     ),
     "key twice": (text("bias = 1\nBIAS = 0"), "line 5", "BIAS is given a second time", "line 4"),
-    "mutation and mutrate": (
-        text(algo="mutrate = 1\nmutation = 1", exp="environment = X\nalgo = SSS"),
-        "line 8: mutation means the same as mutrate in line 7",
-        "keep one",
-    ),
     "no equals sign": (text("bias 1"), "line 4", "bias 1 lacks an = sign", "key = value"),
-    "no key": (text("= 1"), "line 4", "nothing before its = sign"),
     "unknown algorithm": (text(exp="environment = X\nalgo = coev2"), "line 3", "mean coevo2?"),
-    "strange algorithm": (
-        text(exp="environment = X\nalgo = qq"),
-        "OpenAI-ES, PGPE, SSS, archive, archivestar, coevo, coevo2, maxsolvestar",
-    ),
     "word for a number": (
         text("nhiddens = ten"),
         "line 4",
@@ -269,29 +122,14 @@ REFUSED = {
     ),
     "fraction": (text("nhiddens = 1.5"), "line 4", "1.5 is not a whole number", "from 0 to 10000"),
     "comma": (text(algo="stepsize = 0,01"), "line 6", "0,01 is not a number", "point"),
-    "hexadecimal": (text("nhiddens = 0x10"), "not a number"),
-    "underscore": (text("maxsteps = 1_000"), "not a number"),
     "foreign digits": (text("nhiddens = \u0663"), "not a number"),
-    "yes": (text("bias = yes"), "bias = yes is not a number", "0 (no) or 1 (yes)"),
     "nan": (text(algo="stepsize = nan"), "line 6", "nan is not a finite number", "above 0"),
-    "infinity": (text(algo="maxmsteps = -Inf"), "line 6", "-Inf is not a finite number"),
-    "overflow": (text(algo="maxmsteps = 1e999"), "line 6", "1e999 is not a finite number"),
     "long number": (text("maxsteps = " + "9" * 5000), "line 4", "999... is not a finite number"),
     "negative": (text("nhiddens = -3"), "nhiddens = -3 is out of range", "from 0 to 10000"),
-    "too large": (text("nhiddens = 1e6"), "1e6 is out of range", "from 0 to 10000"),
-    "no bins": (text("nbins = 0"), "nbins = 0 is out of range", "from 1"),
-    "no episodes": (text("episodes = 0"), "episodes = 0 is out of range", "from 1"),
-    "zero that must be above": (text(algo="stepsize = 0"), "out of range", "a number above 0"),
     "choice": (
         text("architecture = 5"),
         "line 4: architecture = 5 is out of range",
         "0 (feed-forward), 1 (recurrent), 2 (fully recurrent), 3 (LSTM) or 4 (convolutional)",
-    ),
-    "hidden binary": (text("afunction = 4"), "1 (logistic), 2 (tanh), 3 (linear) or 5 (relu)"),
-    "fraction of a generation": (
-        text(algo="saveeach = 0.5", exp="environment = X\nalgo = coevo2"),
-        "line 7",
-        "0.5 is not a whole number",
     ),
     "odd population": (
         text(algo="popsize = 5", exp="environment = X\nalgo = SSS"),
@@ -303,18 +141,7 @@ REFUSED = {
         text(algo="evolving = beste", exp="environment = X\nalgo = coevo2"),
         "line 7: evolving = beste is unknown: did you mean best?",
     ),
-    "odd population in coevo2 is one, selection too large is not": (
-        text(algo="popsize = 5", exp="environment = X\nalgo = coevo2"),
-        "line 7",
-        "selsize = 10 is more than popsize = 5",
-    ),
     "second layer of one": (text("nhiddens2 = 5"), "line 4", "needs nlayers = 2", "nlayers is 1"),
-    "second layer of three": (text("nlayers = 3\nnhiddens2 = 5"), "line 5", "nlayers is 3"),
-    "second layer takes all": (
-        text("nlayers = 2\nnhiddens = 5\nnhiddens2 = 10"),
-        "line 6",
-        "below 2 x nhiddens = 10",
-    ),
     "too many recurrent neurons": (
         text("nlayers = 2\narchitecture = 1\nnhiddens = 5001"),
         "line 6",
@@ -379,37 +206,6 @@ def test_refused_dict(data, part):
     assert part in str(caught.value)
 
 
-def test_describe_lists_every_hyperparameter_with_default_and_help():
-    rows = describe()
-    listed = {(section, name): default for section, name, default, _ in rows}
-    assert (
-        len(listed)
-        == len(rows)
-        == 5 + 23 + 17 + 7 + 7 + 4 + 6 + 6 + 6 + 9 + 13 + 13 + 12 + 8 + 6 + 4 + 6 + 9
-    )
-    for section, defaults in (
-        (
-            "EXP",
-            {"environment": None, "algo": "OpenAI-ES", "robots": "", "wrappers": ""}
-            | {"options": ""},
-        ),
-        ("POLICY", POLICY_DEFAULTS),
-        ("ARENA", ARENA_DEFAULTS),
-        ("ALGO OpenAI-ES", OPENAI_ES_DEFAULTS),
-        ("ALGO SSS", SSS_DEFAULTS),
-        ("ALGO CMA-ES", GAUSSIAN_DEFAULTS | {"diagonal": 0, "active": 1}),
-        ("ALGO xNES", NATURAL_DEFAULTS),
-        ("ALGO sNES", NATURAL_DEFAULTS),
-        *[(f"ALGO {algo}", defaults) for algo, defaults in COMPETITIVE_DEFAULTS.items()],
-    ):
-        assert {
-            name: value for (part, name), value in listed.items() if part == section
-        } == defaults
-    assert all(len(help) > 10 and "\n" not in help for *_, help in rows)
-    helps = {name: help for _, name, _, help in rows}
-    assert helps["winit"].endswith("0 (Xavier), 1 (norm-incoming) or 2 (uniform)")
-
-
 def test_every_default_satisfies_its_own_limits():
     for algo in config.ALGORITHMS:
         parts = {"exp": {"environment": "X", "algo": algo}, "policy": {}, "algo": {}}
@@ -445,3 +241,10 @@ def test_any_text_loads_or_is_refused(tmp_path, lines, headed):
     head = ["[EXP]", "environment = CartPole-v1", "[ALGO]", "[POLICY]"] if headed else []
     content = "\n".join(head + lines).encode("utf-8", "surrogatepass")
     loads_or_refuses(write(tmp_path, content))
+
+
+def test_each_hyperparameter_is_described_with_its_choices():
+    """Names and defaults are those of the specification: tests/house/test_documents.py."""
+    helps = {name: help for _, name, _, help in describe()}
+    assert all(len(help) > 10 and "\n" not in help for help in helps.values())
+    assert helps["winit"].endswith("0 (Xavier), 1 (norm-incoming) or 2 (uniform)")
