@@ -70,9 +70,9 @@ def by_sb3():
         yield
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def server():
-    """The fork server of graders."""
+    """The fork server of graders, one for a whole run."""
     from botschool.grading.run.confined import fork_server
 
     with fork_server() as one:

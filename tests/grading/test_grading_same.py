@@ -14,7 +14,6 @@ from botschool.errors import BotschoolError
 from botschool.grading import Exercise, expect, same
 from botschool.grading.commands import explain_command
 from botschool.grading.judge.submission import grade
-from botschool.grading.run.confined import fork_server
 
 pytestmark = pytest.mark.slow
 
@@ -116,12 +115,6 @@ def exercise():
 
     made.knows(SOLUTION, MISTAKES)
     return made
-
-
-@pytest.fixture(scope="module")
-def server():
-    with fork_server() as one:
-        yield one
 
 
 @pytest.fixture
