@@ -82,6 +82,7 @@ def is_solution(file):
     return lines == [line for line in SOLUTION.splitlines() if line.strip()]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("as_zip", [False, True], ids=["folder", "zip"])
 @pytest.mark.parametrize("platform", PLATFORMS)
 def test_nobody_vanishes_and_the_solution_is_found(find, tmp_path, platform, as_zip):
@@ -168,6 +169,7 @@ def test_text_that_was_typed_into_a_page_is_graded(find, tmp_path):
     assert text_of_page("<p>if x:</p><p>&nbsp; &nbsp; y()</p>") == "if x:\n    y()\n"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", ["<a ", "<!--", "</", "<div>", "<pre>", "<a b='", "&#", "<?"])
 def test_a_hostile_page_takes_no_time(part):
     """Python's parser of pages took minutes for 30 kB of "<a "."""
@@ -511,6 +513,7 @@ BOMB = "a: &a [x, x, x, x, x, x, x, x]\n" + "".join(
 )
 
 
+@pytest.mark.slow
 def test_aliases_that_make_billions_of_values_are_refused(find, tmp_path):
     (tmp_path / "class.yaml").write_text(BOMB + "late: *l\n")
     with pytest.raises(BotschoolError, match=r"too many values: does an alias"):
@@ -547,6 +550,7 @@ def test_encodings():
 
 
 # --- the commands
+@pytest.mark.slow
 def test_a_class_by_the_command(course, tmp_path):
     people = class_of(FILE, SOLUTION, SKELETON)
     people[1].files = {FILE: SKELETON.encode()}
@@ -561,6 +565,7 @@ def test_a_class_by_the_command(course, tmp_path):
     assert len(pages) == 4 and "was stored as UTF-16" in pages[f"{people[3].name}.html"]
 
 
+@pytest.mark.slow
 def test_the_table_says_that_a_program_is_broken(course, tmp_path):
     files = {f"ada/{FILE}": SOLUTION.encode() + b"x = \xe2\x80\x9cquoted\xe2\x80\x9d\n"}
     top = written(tmp_path / "class", files | {f"bob/{FILE}": SOLUTION.encode() + b"\x1a"})
@@ -576,6 +581,7 @@ def test_the_table_says_that_a_program_is_broken(course, tmp_path):
         assert bob.startswith("bob,100,") and "Invisible characters" in bob
 
 
+@pytest.mark.slow
 def test_one_submission_by_the_command(course, tmp_path):
     path = saved(tmp_path / "ada.zip", {"x/Tiny (1).py": SOLUTION.encode()})
     for place in (path, written(tmp_path / "ada", {"Tiny.ipynb": notebook(SOLUTION)})):
@@ -585,6 +591,7 @@ def test_one_submission_by_the_command(course, tmp_path):
     assert code == 0 and "3.2" in out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", ["grade", "grade-all", "release"])
 def test_the_same_words_name_exercises_everywhere(course, tmp_path, command):
     first = {"grade": [], "grade-all": [submit(tmp_path / "c" / "a", SOLUTION).parents[2], "-e"],

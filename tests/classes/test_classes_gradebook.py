@@ -159,6 +159,7 @@ def test_two_students_are_two(tmp_path, rows):
     assert len(found.students) == 2 and not found.notes
 
 
+@pytest.mark.slow
 def test_a_class_list_that_names_somebody_twice_loses_no_grade(course, tmp_path):
     download = written(tmp_path / "class", {f"7/{FILE}": SOLUTION.encode()})
     people = roster(tmp_path, "name,id,email\nAda Byron,7,a@x.org\nAda Byron,7,a@x.org\n")
@@ -267,6 +268,7 @@ def test_deadlines_extensions_and_adjustments(tmp_path):
 
 
 # --- a class by the command
+@pytest.mark.slow
 def test_a_class_with_all_that_happens(course, tmp_path):
     people = [
         Handed("Ada Lovelace", {FILE: SOLUTION.encode()}),
@@ -322,6 +324,7 @@ def test_a_class_with_all_that_happens(course, tmp_path):
         assert "<script" not in (tmp_path / "out" / name).read_text()
 
 
+@pytest.mark.slow
 def test_canvas_takes_its_gradebook_and_feedback_back(course, tmp_path):
     people = [Handed("Ada Lovelace", {FILE: SOLUTION.encode()}, late=True)]
     download = written(tmp_path / "download", canvas(people))
@@ -350,6 +353,7 @@ def test_canvas_takes_its_gradebook_and_feedback_back(course, tmp_path):
         assert b"Exercise 3. Tiny: 100 of 100" in archive.read(archive.namelist()[0])
 
 
+@pytest.mark.slow
 def test_a_student_who_handed_in_twice_and_wrong_names(course, tmp_path):
     download = written(
         tmp_path / "class",
@@ -370,6 +374,7 @@ def test_a_student_who_handed_in_twice_and_wrong_names(course, tmp_path):
     one_sentence(*call(*arguments)[::2], "class.yaml, line 2 names bob, who is not in the class")
 
 
+@pytest.mark.slow
 def test_gradescopes_times_count(course, tmp_path):
     people = [Handed("Ada Lovelace", {FILE: SOLUTION.encode()})]
     download = saved(tmp_path / "x.zip", gradescope(people))
@@ -379,6 +384,7 @@ def test_gradescopes_times_count(course, tmp_path):
     assert row["exercise 3"] in ("94", "95") and float(row["total"]) == float(row["exercise 3"]) / 2
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(shutil.which("git") is None, reason="there is no git")
 def test_commits_and_nbgraders_times_count(course, tmp_path, monkeypatch):
     ran, class_ = tmp_path / "ran", tmp_path / "class"
@@ -501,6 +507,7 @@ def total(numbers):
 """
 
 
+@pytest.mark.slow
 def test_a_copy_with_other_names_is_found_and_the_skeleton_does_not_count():
     copied = OTHER.replace("result", "table").replace("value", "v").replace("    ", "  ")
     copied = "# my own work\n" + copied.replace("count", "s")
@@ -543,6 +550,7 @@ def handed_in(tmp_path):
     return tmp_path / "class"
 
 
+@pytest.mark.slow
 def test_laboratories_are_graded_beside_exercises(course, tmp_path):
     download = handed_in(tmp_path)
     written(download, {f"Ada/{FILE}": SOLUTION.encode()})
@@ -584,6 +592,7 @@ def test_laboratories_are_graded_beside_exercises(course, tmp_path):
     one_sentence(*refused, "not a laboratory")
 
 
+@pytest.mark.slow
 def test_an_instructor_checks_one_laboratory(course, tmp_path):
     download = handed_in(tmp_path)
     code, out, _ = call("lab", "3", "check", "--submission", str(download / "Bob.zip"))

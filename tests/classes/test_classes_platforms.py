@@ -77,6 +77,7 @@ def ran(command, cwd, **environment):
     return done.returncode, done.stdout + done.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", TEXTS)
 def test_points_are_those_of_grade_on_every_platform(course, tmp_path, points_of_grade, kind):
     text, total = TEXTS[kind]
@@ -124,6 +125,7 @@ def test_points_are_those_of_grade_on_every_platform(course, tmp_path, points_of
     assert summary.read_text().count("## Exercise 3") == (kind != "skeleton")
 
 
+@pytest.mark.slow
 def test_what_is_exported(course, tmp_path):
     out = tmp_path / "out"
     code, text, _ = call("export", "gradescope", "-o", out)
@@ -156,6 +158,7 @@ def test_what_is_exported(course, tmp_path):
 HERE, MINOR = sys.version_info[:2], sys.version_info[1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("tags", "words"),
     [
@@ -220,6 +223,7 @@ def test_nothing_handed_in_is_zero_and_a_fault_of_the_machine_is_not(course, tmp
     assert code == 1 and "Not graded: no torch" in said and not (tmp_path / "r.json").exists()
 
 
+@pytest.mark.slow
 def test_a_notebook_finds_its_grader_where_a_student_sits(course, tmp_path, monkeypatch):
     assert make_nbgrader_course(course, tmp_path / "teaching") == []
     assert make_nbgrader_course(course, tmp_path / "teaching") == []  # nothing seems edited

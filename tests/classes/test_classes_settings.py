@@ -54,6 +54,7 @@ SAID = (
 )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_all_that_is_wrong_is_said_at_once_with_its_place(course):
     (course / "changes.csv").write_text("student,exercise,points\nAda,3,many\n,3,+1\nAda,3,+2\n")
     (course / "class.yaml").write_text(WRONG)
@@ -81,6 +82,7 @@ IDS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", IDS)
 def test_settings_name_people_as_their_platform_does(course, kind):
     platform, name = IDS[kind]
@@ -94,6 +96,7 @@ def test_settings_name_people_as_their_platform_does(course, kind):
     assert [row["total"] for key, row in rows.items() if "ob" in key] == ["47"]
 
 
+@pytest.mark.slow
 def test_no_mark_is_above_the_maximum_unless_the_class_says_so(course):
     written(course / "all", {f"ada/{FILE}": SOLUTION.encode()})
     (course / "changes.csv").write_text("student,exercise,points\nada,3,+30\n")
@@ -106,6 +109,7 @@ def test_no_mark_is_above_the_maximum_unless_the_class_says_so(course):
         )
 
 
+@pytest.mark.slow
 def test_a_groups_file_counts_for_each_member_as_canvas_and_clones_name_it(course):
     people = [
         Handed("Ada Byron", {FILE: SOLUTION.encode()}),
@@ -128,6 +132,7 @@ def test_a_groups_file_counts_for_each_member_as_canvas_and_clones_name_it(cours
     assert "100%" not in similar  # a group's file is no copy
 
 
+@pytest.mark.slow
 def test_settings_without_effect_are_said(course):
     written(course / "all", {f"ada/{FILE}": SOLUTION.encode(), "class.yaml": b"late: 1 per day\n"})
     code, out, _ = call("grade-all", course / "all", "-o", course / "out")
@@ -211,6 +216,7 @@ def test_answers_are_remembered_and_the_table_is_kept(tmp_path):
     assert class_.add(lees[:1], "ex4") == [4] and not class_.doubts
 
 
+@pytest.mark.slow
 def test_a_worksheet_tells_who_of_one_name_is_who_on_the_class_list(course):
     people = [Handed("Kim Lee", {FILE: text.encode()}) for text in (HALF, SOLUTION)]
     saved(course / "x.zip", moodle(people))

@@ -213,6 +213,7 @@ def check(rows, class_, canvas=False):
         assert row["total"] == ("" if total is None else f"{total:g}"), (row, points)
 
 
+@pytest.mark.slow
 def test_three_assignments_of_moodle_become_one_row_for_each_person(here):
     class_ = pupils()
     settings(here / "class", class_)
@@ -253,6 +254,7 @@ def test_three_assignments_of_moodle_become_one_row_for_each_person(here):
     )
 
 
+@pytest.mark.slow
 def test_without_worksheets_people_of_one_name_are_asked_about_once(here):
     class_ = pupils()
     outputs = []
@@ -283,6 +285,7 @@ def test_without_worksheets_people_of_one_name_are_asked_about_once(here):
     assert found == sorted(float(sum(one.points.values())) for one in lees)
 
 
+@pytest.mark.slow
 def test_downloads_side_by_side_make_one_row_for_each_person(here):
     class_ = pupils()[:12]
     lines = ["name,id,email", *(f"{one.name},{one.id},{one.mail[0]}" for one in class_)]
@@ -310,6 +313,7 @@ def test_downloads_side_by_side_make_one_row_for_each_person(here):
         assert (here / "out" / f"moodle-feedback-a{number}.zip").is_file()
 
 
+@pytest.mark.slow
 def test_three_assignments_of_canvas(here):
     class_ = pupils()
     settings(here / "class", class_, canvas=True)

@@ -62,6 +62,7 @@ def recurses():
     return recurses()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("read", "sentence", "ours"),
     [
@@ -89,6 +90,7 @@ def test_an_answer_comes_through_the_wall():
     assert walled(lambda size: bytes(size), 3_000_000) == bytes(3_000_000)
 
 
+@pytest.mark.slow
 def test_one_broken_exercise_costs_only_its_owner(find, monkeypatch):
     choose = Wanted.choose
 
@@ -146,6 +148,7 @@ DAMAGED = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", DAMAGED)
 def test_a_damaged_archive_is_no_work_and_not_left_ungraded(find, kind):
     name, content = DAMAGED[kind]
@@ -161,6 +164,7 @@ def test_a_damaged_zip_file_beside_folders_is_its_owners(find, kind):
     assert set(found) == {"ada", "eve"} and not found["eve"].files
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", [b"eve_5_9_\xff.py", b"eve\xff_5_9_x.py", b"Eve\xff_7_assignsubmission_file_x.py"]
 )
@@ -186,6 +190,7 @@ INSIDE = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("as_zip", [False, True], ids=["folder", "zip"])
 @pytest.mark.parametrize("kind", INSIDE)
 def test_a_class_within_a_submission_is_its_owners(find, kind, as_zip):
