@@ -6,14 +6,6 @@
 
 namespace botschool {
 
-/// The hyperparameters of coevo2 in section [ALGO].
-struct CoevolutionRules {
-  int popsize, selsize, samplesize;
-  double stepsize, deviation;
-  int wdecay;
-  bool random;  ///< whether those who evolve are drawn
-};
-
 /// A row for each individual, a column for each competitor.
 struct Table {
   std::size_t rows = 0, columns = 0;
@@ -51,7 +43,7 @@ class Coevolution final : public Run {
   static constexpr int kSteps = 20, kParts = kSteps + 1;  ///< meetings of a generation
 
   Coevolution(const Info& info, const Layout& layout, const Evaluation& evaluation,
-              const CoevolutionRules& rules, std::uint64_t seed, Play play)
+              const Coevo2Settings& rules, std::uint64_t seed, Play play)
       : layout_(layout),
         evaluation_(evaluation),
         rules_(rules),
@@ -125,7 +117,8 @@ class Coevolution final : public Run {
     opponents_.clear();
     for (const std::size_t c : competitors) opponents_.push_back(side_[other][c]);
     const Table before = seen_by(side, fitness_).turned().chosen_rows(competitors).turned();
-    const auto order = rules_.random ? numbers_.permutation(rules_.popsize) : before.ranking();
+    const auto order =
+        rules_.evolving == 1 ? numbers_.permutation(rules_.popsize) : before.ranking();
     evolving_.clear();
     for (int i = 0; i < rules_.selsize; ++i) evolving_.push_back(side_[side][order[i]]);
   }
@@ -139,7 +132,7 @@ class Coevolution final : public Run {
       samples.emplace_back(rules_.samplesize * n);
       for (double& sample : samples.back()) sample = numbers_.next();
       Values candidates(count * n);
-      mirror(centre.x, samples.back(), rules_.deviation, candidates.data());
+      mirror(centre.x, samples.back(), rules_.noiseStdDev, candidates.data());
       for (std::size_t c = 0; c < count; ++c)
         offspring.push_back({{&candidates[c * n], &candidates[c * n] + n}, {}, {}});
     }
@@ -245,7 +238,7 @@ class Coevolution final : public Run {
 
   Layout layout_;
   Evaluation evaluation_;
-  CoevolutionRules rules_;
+  Coevo2Settings rules_;
   std::uint64_t seed_, generation_ = 0;
   Play play_;
   Normals numbers_;

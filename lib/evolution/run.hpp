@@ -16,13 +16,6 @@
 
 namespace botschool {
 
-/// How candidates are evaluated: keys of section [POLICY].
-struct Evaluation {
-  int episodes, pepisodes, limit, post_limit;  ///< limits in steps
-  bool heterogeneous;
-  double alive;  ///< paid for each step that does not end its episode early
-};
-
 using Play = std::function<void(const Jobs&)>;
 
 /// What a run has reached, as its files say.
@@ -47,19 +40,14 @@ class Run {
 class Evolution final : public Run {
  public:
   Evolution(const Info& info, const Layout& layout, const Evaluation& evaluation,
-            const Hyperparameters& hyperparameters, bool steady_state, std::uint64_t seed,
-            Play play)
+            const StrategyMaker& strategy, std::uint64_t seed, Play play)
       : info_(info),
         layout_(layout),
         evaluation_(evaluation),
         seed_(seed),
         play_(std::move(play)),
         moments_(layout.spec.inputs) {
-    const Initial initial = [&](std::uint32_t index) { return genotype(index); };
-    if (steady_state)
-      strategy_ = std::make_unique<SSS>(hyperparameters, initial, seed);
-    else
-      strategy_ = std::make_unique<OpenAIES>(hyperparameters, initial, seed);
+    strategy_ = strategy([&](std::uint32_t index) { return genotype(index); }, seed);
     if (layout.spec.normalize) {
       normalisation_.assign(2 * layout.spec.inputs, 0.0);
       std::fill(normalisation_.begin() + layout.spec.inputs, normalisation_.end(), 1.0);

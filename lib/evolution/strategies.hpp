@@ -11,21 +11,13 @@
 #include <vector>
 
 #include "normals.hpp"
+#include "settings.hpp"
 #include "sums.hpp"
 
 namespace botschool {
 
 using Values = std::vector<double>;
 using Initial = std::function<Values(std::uint32_t)>;
-
-/// The hyperparameters of section [ALGO].
-struct Hyperparameters {
-  int size;          ///< samplesize of OpenAI-ES, popsize of SSS
-  double stepsize;   ///< of OpenAI-ES
-  double deviation;  ///< noiseStdDev of OpenAI-ES, mutrate of SSS
-  int wdecay = 0;    ///< of OpenAI-ES
-  int symseed = 1;   ///< of OpenAI-ES
-};
 
 /// Indices from the largest value to the smallest, or with `rising` the reverse; the earlier wins
 /// ties.
@@ -114,19 +106,19 @@ class Strategy {
 
 class OpenAIES final : public Strategy {
  public:
-  OpenAIES(const Hyperparameters& given, const Initial& initial, std::uint64_t seed)
+  OpenAIES(const OpenAIESSettings& given, const Initial& initial, std::uint64_t seed)
       : given_(given), seed_(seed), centre_{initial(0), {}, {}} {
     centre_.m.assign(centre_.x.size(), 0.0);
     centre_.v.assign(centre_.x.size(), 0.0);
   }
 
   void ask(Values& candidates, std::vector<std::uint64_t>& seeds) override {
-    const std::size_t n = centre_.x.size(), directions = given_.size;
+    const std::size_t n = centre_.x.size(), directions = given_.samplesize;
     Normals numbers(seed_, generation_);
     samples_.resize(directions * n);
     for (double& sample : samples_) sample = numbers.next();
     candidates.resize(2 * directions * n);
-    mirror(centre_.x, samples_, given_.deviation, candidates.data());
+    mirror(centre_.x, samples_, given_.noiseStdDev, candidates.data());
     seeds.resize(2 * directions);
     const std::size_t sharing[] = {1, 2, seeds.size()}, alike = sharing[given_.symseed];
     for (std::size_t c = 0; c < seeds.size(); ++c)
@@ -144,7 +136,7 @@ class OpenAIES final : public Strategy {
   }
 
  private:
-  Hyperparameters given_;
+  OpenAIESSettings given_;
   std::uint64_t seed_, generation_ = 0;
   Centre centre_;
   Values samples_;
@@ -152,9 +144,9 @@ class OpenAIES final : public Strategy {
 
 class SSS final : public Strategy {
  public:
-  SSS(const Hyperparameters& given, const Initial& initial, std::uint64_t seed)
+  SSS(const SSSSettings& given, const Initial& initial, std::uint64_t seed)
       : given_(given), seed_(seed) {
-    for (int i = 0; i < given.size; ++i) {
+    for (int i = 0; i < given.popsize; ++i) {
       const Values one = initial(static_cast<std::uint32_t>(i));
       population_.insert(population_.end(), one.begin(), one.end());
     }
@@ -162,7 +154,7 @@ class SSS final : public Strategy {
 
   void ask(Values& candidates, std::vector<std::uint64_t>& seeds) override {
     candidates = population_;
-    seeds.assign(given_.size, seed_ + generation_);
+    seeds.assign(given_.popsize, seed_ + generation_);
   }
 
   void tell(const Values& fitness) override {
@@ -172,7 +164,7 @@ class SSS final : public Strategy {
     for (std::size_t i = 0; i < half; ++i) {
       const double* parent = &population_[order[i] * n];
       double* child = &population_[order[half + i] * n];
-      for (std::size_t k = 0; k < n; ++k) child[k] = parent[k] + given_.deviation * numbers.next();
+      for (std::size_t k = 0; k < n; ++k) child[k] = parent[k] + given_.mutrate * numbers.next();
     }
   }
 
@@ -182,9 +174,19 @@ class SSS final : public Strategy {
   }
 
  private:
-  Hyperparameters given_;
+  SSSSettings given_;
   std::uint64_t seed_, generation_ = 0;
   Values population_;
 };
+
+/// Makes the strategy of a run from its first networks and its seed.
+using StrategyMaker = std::function<std::unique_ptr<Strategy>(const Initial&, std::uint64_t)>;
+
+template <class Kind, class Settings>
+StrategyMaker maker(const Settings& given) {
+  return [given](const Initial& initial, std::uint64_t seed) {
+    return std::make_unique<Kind>(given, initial, seed);
+  };
+}
 
 }  // namespace botschool

@@ -191,7 +191,10 @@ const Kernel* find(const char* problem) {
   return nullptr;
 }
 
-/// spec: the hyperparameters of hyperparameters.hpp, in that order. Null for an unknown problem.
+/// The names of the settings of a group, in the order in which the functions below read their values.
+EXPORT(settings) const char* settings(const char* group) { return names_of_settings(group); }
+
+/// spec: the settings of the group "network". Null for an unknown problem.
 EXPORT(task) Task* task(const char* problem, const double* spec) {
   const Kernel* kernel = find(problem);
   if (!kernel) return nullptr;
@@ -208,16 +211,18 @@ EXPORT(task) Task* task(const char* problem, const double* spec) {
   return new Task{kernel, info, make_layout(s)};
 }
 
-/// An agent of policy gradients. spec: normalize, ortho_init, relu, log_std_init; then three times how many
-/// hidden layers and how many neurons each has: those in common, the policy's, the critic's.
+/// An agent of policy gradients. spec: the settings of the group "agent"; then three times how many hidden
+/// layers and how many neurons each has: those in common, the policy's, the critic's.
 EXPORT(agent) Task* agent(const char* problem, const double* spec) {
   const Kernel* kernel = find(problem);
   if (!kTrains || !kernel) return nullptr;
   policy_gradient::Hyperparameters h;
-  h.normalize = *spec++ != 0;
-  h.ortho_init = *spec++ != 0;
-  h.relu = *spec++ != 0;
-  h.log_std_init = *spec++;
+  const AgentSettings given = AgentSettings::read(spec);
+  spec += count_of(AgentSettings::names);
+  h.normalize = given.normalize;
+  h.ortho_init = given.ortho_init;
+  h.relu = given.relu;
+  h.log_std_init = given.log_std_init;
   for (std::vector<int>* layers : {&h.shared, &h.pi, &h.vf}) {
     layers->resize(static_cast<std::size_t>(*spec++));
     for (int& neurons : *layers) neurons = static_cast<int>(*spec++);
@@ -225,54 +230,50 @@ EXPORT(agent) Task* agent(const char* problem, const double* spec) {
   return new Task{kernel, kernel->info, {}, h};
 }
 
-int whole(double value) { return static_cast<int>(value); }
-
-/// evaluation: evaluations, episodes, longest episode, steps of the training. algorithm: 3, n_envs, n_steps,
-/// batch_size, n_epochs, gamma, gae_lambda, ent_coef, vf_coef, max_grad_norm, target_kl,
-/// normalize_advantage; learning_rate, clip_range and clip_range_vf, and whether each falls.
-Run* lesson(const Task& task, const double* evaluation, const double* a, std::uint64_t seed) {
+Run* lesson(const Task& task, const double* evaluation, const double* algorithm,
+            std::uint64_t seed) {
+  const TrainingSettings t = TrainingSettings::read(evaluation);
+  const PPOSettings a = PPOSettings::read(algorithm);
   Curriculum c{*task.agent,
-               {a[12], a[13] != 0},
-               {a[14], a[15] != 0},
-               {a[16], a[17] != 0},
-               static_cast<std::int64_t>(evaluation[3]),
-               whole(evaluation[0]),
-               whole(evaluation[1]),
-               whole(evaluation[2])};
+               {a.learning_rate, a.learning_rate_falls},
+               {a.clip_range, a.clip_range_falls},
+               {a.clip_range_vf, a.clip_range_vf_falls},
+               t.steps,
+               t.evaluations,
+               t.episodes,
+               t.limit};
   c.h.seed = seed;
-  c.h.n_envs = whole(a[1]);
-  c.h.n_steps = whole(a[2]);
-  c.h.batch_size = whole(a[3]);
-  c.h.n_epochs = whole(a[4]);
-  c.h.gamma = a[5];
-  c.h.gae_lambda = a[6];
-  c.h.ent_coef = a[7];
-  c.h.vf_coef = a[8];
-  c.h.max_grad_norm = a[9];
-  c.h.target_kl = a[10];
-  c.h.normalize_advantage = a[11] != 0;
+  c.h.n_envs = a.n_envs;
+  c.h.n_steps = a.n_steps;
+  c.h.batch_size = a.batch_size;
+  c.h.n_epochs = a.n_epochs;
+  c.h.gamma = a.gamma;
+  c.h.gae_lambda = a.gae_lambda;
+  c.h.ent_coef = a.ent_coef;
+  c.h.vf_coef = a.vf_coef;
+  c.h.max_grad_norm = a.max_grad_norm;
+  c.h.target_kl = a.target_kl;
+  c.h.normalize_advantage = a.normalize_advantage;
   return new Lesson(*task.kernel, c);
 }
 
-/// evaluation: episodes, pepisodes, limit, post_limit, heterogeneous, alive. algorithm: 0 and samplesize,
-/// stepsize, noiseStdDev, wdecay, symseed of OpenAI-ES; 1 and popsize, -, mutrate of SSS; 2 and popsize,
-/// stepsize, noiseStdDev, wdecay, random?, selsize, samplesize of coevo2; 3 as `lesson` says.
+/// evaluation: the settings of the group "evaluation", or of an agent "training"; algorithm: those of the
+/// group `name`.
 EXPORT(run)
-Run* run(const Task* task, const double* evaluation, const double* algorithm, double given) {
+Run* run(const Task* task, const char* name, const double* evaluation, const double* algorithm,
+         double given) {
   const auto seed = static_cast<std::uint64_t>(given);
-  if (kTrains && algorithm[0] == 3) return lesson(*task, evaluation, algorithm, seed);
-  const Evaluation e{whole(evaluation[0]), whole(evaluation[1]), whole(evaluation[2]),
-                     whole(evaluation[3]), evaluation[4] != 0,   evaluation[5]};
+  const auto is = [name](const char* known) { return !std::strcmp(name, known); };
+  if (kTrains && is("PPO")) return lesson(*task, evaluation, algorithm, seed);
+  const Evaluation e = Evaluation::read(evaluation);
   const Play play = [task](const Jobs& jobs) { task->play(jobs); };
-  if (algorithm[0] == 2) {
-    const CoevolutionRules rules{whole(algorithm[1]), whole(algorithm[6]), whole(algorithm[7]),
-                                 algorithm[2],        algorithm[3],        whole(algorithm[4]),
-                                 algorithm[5] != 0};
+  if (is("coevo2")) {
+    const Coevo2Settings rules = Coevo2Settings::read(algorithm);
     return new Coevolution(task->info, task->layout, e, rules, seed, play);
   }
-  const Hyperparameters h{whole(algorithm[1]), algorithm[2], algorithm[3], whole(algorithm[4]),
-                          whole(algorithm[5])};
-  return new Evolution(task->info, task->layout, e, h, algorithm[0] != 0, seed, play);
+  const StrategyMaker strategy = is("SSS") ? maker<SSS>(SSSSettings::read(algorithm))
+                                           : maker<OpenAIES>(OpenAIESSettings::read(algorithm));
+  return new Evolution(task->info, task->layout, e, strategy, seed, play);
 }
 EXPORT(advance) double advance(Run* run) {
   run->advance();

@@ -110,7 +110,7 @@ EVOLVE = """
 import { createHash } from "crypto";
 const { core: place, experiment, seed } = JSON.parse(readFileSync(0));
 const core = await Core.load(readFileSync(place));
-const run = core.run(core.task(experiment.problem, experiment.spec), experiment, seed);
+const run = core.run(core.task(experiment), experiment, seed);
 const kept = [];
 let steps = 0;
 const { generations } = experiment;
@@ -206,7 +206,7 @@ const { core: place, data: read, seed } = JSON.parse(readFileSync(GIVEN));
 globalThis.data = read;
 const { experiment } = read;
 const core = await Core.load(readFileSync(place));
-const task = core.task(experiment.problem, experiment.spec, true);
+const task = core.task(experiment);
 const run = core.run(task, experiment, seed);
 for (let steps = 0; steps < experiment.steps;) steps = run.advance();
 const digest = (bytes) => createHash("sha256").update(bytes).digest("hex");
@@ -297,7 +297,7 @@ BENCH = """
 const given = JSON.parse(readFileSync(GIVEN));
 const { core: place, experiment, genotype, normalisation, seed, changes } = given;
 const core = await Core.load(readFileSync(place));
-const task = core.task(experiment.problem, experiment.spec, experiment.agent);
+const task = core.task(experiment);
 const bench = core.bench(task, experiment.heterogeneous, experiment.limit);
 bench.genotype.set(genotype);
 bench.normalisation.set(normalisation ?? []);

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from botschool import problems
+from botschool import _core, problems
 from botschool.config import Experiment, to_dict
 from botschool.errors import BotschoolError
 from botschool.output import check_output, save_bytes
@@ -32,6 +32,8 @@ from botschool.seeds import POST_EVALUATION_SEED
 SCRIPTS = ("scenes.js", "files.js", "hands.js", "tournament.js", "evolve.js", "page.js")
 ALGORITHMS = ("OpenAI-ES", "SSS", "coevo2")
 """Algorithms that a page can run."""
+LENGTHS = ("maxmsteps", "ngenerations", "saveeach")
+"""Hyperparameters that say how long a run is: the page itself counts."""
 
 
 def write_page(
@@ -148,15 +150,19 @@ def for_core(experiment: Experiment, problem: NativeProblem) -> dict:
     limit = problem.steps(p.maxsteps)
     return {
         "problem": problem.dynamics,
-        "spec": [getattr(p, key) for key in NETWORK],
-        "evaluation": [
-            p.episodes,
-            p.pepisodes,
-            limit,
-            problem.steps(p.post_steps),
-            p.heterogeneous,
-            problem.alive,
-        ],
+        "spec": named("network", {key: getattr(p, key) for key in NETWORK}),
+        "evaluation": named(
+            "evaluation",
+            {
+                "episodes": p.episodes,
+                "pepisodes": p.pepisodes,
+                "limit": limit,
+                "post_limit": problem.steps(p.post_steps),
+                "heterogeneous": p.heterogeneous,
+                "alive": problem.alive,
+            },
+        ),
+        "algo": experiment.exp.algo,
         "algorithm": _algorithm(experiment),
         "steps": max(1, round(getattr(experiment.algo, "maxmsteps", 1) * 1e6)),
         "generations": getattr(experiment.algo, "ngenerations", 0),
@@ -196,19 +202,36 @@ def packed(content: bytes) -> str:
     return b64encode(gzip.compress(content, 9, mtime=0)).decode()
 
 
-def _algorithm(experiment: Experiment) -> list[float] | None:
-    """Return the arguments of core.cpp's `run`; None for an algorithm that it does not have."""
-    a = experiment.algo
-    match experiment.exp.algo:
-        case "OpenAI-ES":
-            return [0, a.samplesize, a.stepsize, a.noiseStdDev, a.wdecay, a.symseed]
-        case "SSS":
-            return [1, a.popsize, 0, a.mutrate, 0, 0]
-        case "coevo2":
-            drawn = a.evolving == "random"
-            steps = [a.stepsize, a.noiseStdDev, a.wdecay]
-            return [2, a.popsize, *steps, drawn, a.selsize, a.samplesize]
-    return None
+def named(group: str, settings: dict[str, Any]) -> dict[str, Any]:
+    """Return the settings of a group, which the core takes by their names (lib/evolution/settings.hpp).
+
+    Raises BotschoolError for a setting that the core does not know, and for one that is missing.
+    """
+    known = _core.settings(group).split(",")[:-1]
+    odd = sorted({*known} ^ {*settings})
+    if odd:
+        raise BotschoolError(
+            f"A page cannot have this experiment: the core of pages and {group} differ in "
+            f"{', '.join(odd)} (lib/evolution/settings.hpp)."
+        )
+    return settings
+
+
+def _algorithm(experiment: Experiment) -> dict[str, float] | None:
+    """Return the algorithm's own hyperparameters; None for one that pages do not have. A choice
+    between words is its place.
+    """
+    if experiment.exp.algo not in ALGORITHMS:
+        return None
+    own = [f for f in fields(experiment.algo) if f.name not in LENGTHS]
+    values = {f.name: (getattr(experiment.algo, f.name), f.metadata) for f in own}
+    return named(
+        experiment.exp.algo,
+        {
+            name: list(known["choices"]).index(value) if isinstance(value, str) else value
+            for name, (value, known) in values.items()
+        },
+    )
 
 
 def _about(experiment: Experiment) -> str:
@@ -217,14 +240,6 @@ def _about(experiment: Experiment) -> str:
     if experiment.exp.algo not in ALGORITHMS:
         what = f"acts in this page ({experiment.exp.algo} evolves it outside)"
     return f"{what}; nothing leaves your computer"
-
-
-PLACES = {
-    "OpenAI-ES": ("samplesize", "stepsize", "noiseStdDev", "wdecay", "symseed"),
-    "SSS": ("popsize", "", "mutrate"),
-    "coevo2": ("popsize", "stepsize", "noiseStdDev", "wdecay", "evolving", "selsize", "samplesize"),
-}
-"""Where `_algorithm` puts hyperparameters, from place 1 on."""
 
 
 def _written(experiment: Experiment) -> dict[str, dict[str, Any]]:
@@ -237,21 +252,21 @@ def _written(experiment: Experiment) -> dict[str, dict[str, Any]]:
 
 
 def _fields(experiment: Experiment, problem: NativeProblem) -> list[dict]:
-    """Return the fields that a user can change: [array, index, factor, most] for each."""
+    """Return the fields that a user can change: [group, name, factor, most] for each."""
     most = problem.limit
-    post = [] if experiment.policy.pmaxsteps else [["evaluation", 3, 1, most]]
+    post = [] if experiment.policy.pmaxsteps else [["evaluation", "post_limit", 1, most]]
     places: dict[str, list] = {
-        "episodes": [["evaluation", 0, 1, None]],
-        "pepisodes": [["evaluation", 1, 1, None]],
-        "maxsteps": [["evaluation", 2, 1, most], *post],
-        "maxmsteps": [["steps", 0, 1e6, None]],
-        "ngenerations": [["generations", 0, 1, None]],
+        "episodes": [["evaluation", "episodes", 1, None]],
+        "pepisodes": [["evaluation", "pepisodes", 1, None]],
+        "maxsteps": [["evaluation", "limit", 1, most], *post],
+        "maxmsteps": [["steps", "", 1e6, None]],
+        "ngenerations": [["generations", "", 1, None]],
     }
-    places |= {name: [["spec", i, 1, None]] for i, name in enumerate(NETWORK)}
-    if experiment.exp.algo not in PLACES:
+    places |= {name: [["spec", name, 1, None]] for name in NETWORK}
+    algorithm = _algorithm(experiment)
+    if algorithm is None:
         return []
-    names = PLACES[experiment.exp.algo]
-    places |= {name: [["algorithm", i, 1, None]] for i, name in enumerate(names, 1) if name}
+    places |= {name: [["algorithm", name, 1, None]] for name in algorithm}
     found = []
     for section, config in (("POLICY", experiment.policy), ("ALGO", experiment.algo)):
         for f in fields(config):

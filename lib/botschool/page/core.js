@@ -35,12 +35,25 @@ class Core {
     }
   }
 
-  // Returns a problem with a network, or with an agent of policy gradients; spec: the values of the
-  // network's hyperparameters, in order.
-  task(problem, spec, agent = false) {
-    const name = new TextEncoder().encode(`${problem}\0`);
+  // Returns settings in the order in which the core reads a group; throws unless it knows these and no others.
+  settings(group, given) {
+    const place = this.lend([Core.text(group)], (name) => this.c.settings(name));
+    const bytes = new Uint8Array(this.c.memory.buffer, place);
+    const names = new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0))).split(",").slice(0, -1);
+    const odd = [...names.filter((name) => !(name in given)), ...Object.keys(given).filter((name) => !names.includes(name))];
+    if (odd.length) throw new Error(`this page and its core do not have the same ${group} settings (${odd.join(", ")}): write the page again`);
+    return Float64Array.from(names, (name) => given[name]);
+  }
+
+  static text(words) {
+    return new TextEncoder().encode(`${words}\0`);
+  }
+
+  // Returns a problem with a network, or with an agent of policy gradients (which has layers).
+  task({ problem, spec, layers, agent = false }) {
     const make = agent ? this.c.agent : this.c.task;
-    const task = this.lend([name, Float64Array.from(spec)], (...places) => make(...places));
+    const numbers = [...this.settings(agent ? "agent" : "network", spec), ...(layers ?? [])];
+    const task = this.lend([Core.text(problem), Float64Array.from(numbers)], (...places) => make(...places));
     if (!task) throw new Error(`there is no problem ${problem}`);
     return task;
   }
@@ -90,10 +103,11 @@ class Core {
 
 // An evolutionary run; each advance() is a generation, or a part of it.
 class Run {
-  constructor(core, task, { evaluation, algorithm }, seed) {
+  constructor(core, task, { algo, evaluation, algorithm }, seed) {
     this.core = core;
-    const given = [Float64Array.from(evaluation), Float64Array.from(algorithm)];
-    this.place = core.lend(given, (e, a) => core.c.run(task, e, a, seed));
+    const how = core.settings(algo === "PPO" ? "training" : "evaluation", evaluation);
+    const given = [Core.text(algo), how, core.settings(algo, algorithm)];
+    this.place = core.lend(given, (...places) => core.c.run(task, ...places, seed));
   }
 
   // Returns the steps so far.

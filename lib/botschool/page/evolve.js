@@ -67,7 +67,7 @@ function finish() {
 }
 
 // Returns whether the robot in the picture has the network that evolves.
-const sameNetwork = (chosen) => chosen.spec.every((value, i) => value === experiment.spec[i]);
+const sameNetwork = (chosen) => Object.entries(chosen.spec).every(([name, value]) => value === experiment.spec[name]);
 
 function offer(chosen) {
   byId("downloads").hidden = false;
@@ -180,14 +180,14 @@ function readFields() {
       return null;
     }
     field.value = word >= 0 ? input.value.trim() : value;
-    if (field.falls) chosen.algorithm[field.into[0][1] + 1] = falling ? 1 : 0;
-    for (const [array, index, factor, most] of field.into) {
+    if (field.falls) chosen.algorithm[`${field.key}_falls`] = falling ? 1 : 0;
+    for (const [group, name, factor, most] of field.into) {
       const scaled = Math.min(value * factor, most ?? Infinity);
-      if (typeof chosen[array] === "number") chosen[array] = Math.max(1, Math.round(scaled));
-      else chosen[array][index] = scaled;
+      if (typeof chosen[group] === "number") chosen[group] = Math.max(1, Math.round(scaled));
+      else chosen[group][name] = scaled;
     }
   }
-  const [popsize, selsize] = [chosen.algorithm[1], chosen.algorithm[6]];
+  const { popsize, selsize } = chosen.algorithm;
   if (data.sides && selsize > popsize) {
     say(`selsize = ${selsize} is more than popsize = ${popsize}: lower selsize.`);
     return null;

@@ -360,7 +360,7 @@ async function begin() {
   keep(data.first); // a picture before the core is there
   draw();
   core = await Core.load(await unzipped(byId("core").textContent));
-  task = core.task(experiment.problem, experiment.spec, experiment.agent);
+  task = core.task(experiment);
   bench = core.bench(task, experiment.heterogeneous, experiment.limit);
   const own = bench.genotype.length;
   let values = core.initial(task, +byId("seed").value, data.networks, own / data.networks);

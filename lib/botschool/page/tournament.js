@@ -68,7 +68,7 @@ function meetings() {
   const size = ours.genotype.length / 2;
   const everyone = new Float64Array((rivals.length + 1) * 2 * size);
   [ours, ...rivals].forEach(({ genotype }, i) => everyone.set(genotype, i * 2 * size));
-  const repeats = experiment.evaluation[1];
+  const repeats = experiment.evaluation.pepisodes;
   const predators = [];
   const prey = [];
   for (let r = 1; r <= rivals.length; r++) for (let e = 0; e < repeats; e++) predators.push(0), prey.push(2 * r + 1);

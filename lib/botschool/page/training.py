@@ -11,7 +11,7 @@ import numpy as np
 from botschool import _core
 from botschool.errors import BotschoolError
 from botschool.output import check_output, save_bytes
-from botschool.page import assemble, encoded, picture
+from botschool.page import assemble, encoded, named, picture
 from botschool.problems.native import NativeProblem
 from botschool.rl.model import choose
 from botschool.rl.native import files
@@ -41,6 +41,7 @@ SCHEDULED = {
     "learning_rate": 'step size of Adam; "linear X" falls from X to 0',
     "clip_range": "how far the ratio of probabilities may leave 1",
 }
+NETWORKS = ("net_arch", "share_layers", "activation_fn", "log_std_init", "ortho_init")
 MOST = 1_000_000
 
 
@@ -112,11 +113,26 @@ def page_data(settings: Settings, ppo: PPO) -> dict[str, Any]:
         "experiment": {
             "agent": True,
             "problem": core,
-            "spec": [
-                *(settings.normalize, h.ortho_init, h.activation_fn == "relu", h.log_std_init),
-                *(number for layers in (shared, pi, vf) for number in (len(layers), *layers)),
-            ],
-            "evaluation": [settings.evaluations, settings.episodes, limit, settings.steps],
+            "spec": named(
+                "agent",
+                {
+                    "normalize": settings.normalize,
+                    "ortho_init": h.ortho_init,
+                    "relu": h.activation_fn == "relu",
+                    "log_std_init": h.log_std_init,
+                },
+            ),
+            "layers": [n for layers in (shared, pi, vf) for n in (len(layers), *layers)],
+            "evaluation": named(
+                "training",
+                {
+                    "evaluations": settings.evaluations,
+                    "episodes": settings.episodes,
+                    "limit": limit,
+                    "steps": settings.steps,
+                },
+            ),
+            "algo": "PPO",
             "algorithm": _algorithm(settings, h),
             "steps": settings.steps,
             "generations": 0,
@@ -134,35 +150,35 @@ def _parts(ppo: PPO) -> list[tuple[str, list[int], int]]:
     return [(name, list(shape), at) for own, shape, at in ppo.core.parts for name in names[own]]
 
 
-def _algorithm(settings: Settings, h: Hyperparameters) -> list[Any]:
-    """Return what `lesson` in core.cpp reads."""
-    found = [3, settings.envs, h.n_steps, h.batch_size, h.n_epochs, h.gamma, h.gae_lambda]
-    found += [h.ent_coef, h.vf_coef, h.max_grad_norm, h.target_kl or 0, h.normalize_advantage]
-    for value in (h.learning_rate, h.clip_range, h.clip_range_vf):
-        falling = linear(value)
-        found += [float(value or 0) if falling is None else falling, falling is not None]
-    return found
+def _algorithm(settings: Settings, h: Hyperparameters) -> dict[str, Any]:
+    """Return all hyperparameters but those of the networks, which `spec` and `layers` have."""
+    found = {key: value for key, value in vars(h).items() if key not in NETWORKS}
+    for name in SCHEDULED:
+        falling = linear(found[name])
+        found[name] = float(found[name] or 0) if falling is None else falling
+        found[f"{name}_falls"] = falling is not None
+    return named("PPO", found | {"n_envs": settings.envs, "target_kl": h.target_kl or 0})
 
 
 def _fields(settings: Settings, h: Hyperparameters) -> list[dict]:
-    """Return what may be changed in the page, and where `_algorithm` puts it."""
+    """Return what may be changed in the page, and in which group."""
     values = vars(h) | {"n_envs": settings.envs}
     found = [
         _field("steps", settings.steps, "length of the training", 1, 1e12, whole=True)
-        | {"into": [["steps", 0, 1, None], ["evaluation", 3, 1, None]]}
+        | {"into": [["steps", "", 1, None], ["evaluation", "steps", 1, None]]}
     ]
-    for place, (name, text) in enumerate((COUNTS | NUMBERS).items(), 1):
+    for name, text in (COUNTS | NUMBERS).items():
         low, high = RANGES.get(name, (None, None))
         if name in COUNTS:
             low, high = 1, MOST
         found.append(
             _field(name, values[name], text, low or 0, high or 1e30, whole=name in COUNTS)
-            | {"into": [["algorithm", place, 1, None]]}
+            | {"into": [["algorithm", name, 1, None]]}
         )
-    for place, (name, text) in enumerate(SCHEDULED.items()):
+    for name, text in SCHEDULED.items():
         found.append(
             _field(name, values[name] or 0, text, 0, 1e30)
-            | {"into": [["algorithm", 12 + 2 * place, 1, None]], "falls": True}
+            | {"into": [["algorithm", name, 1, None]], "falls": True}
         )
     return found
 

@@ -16,7 +16,7 @@ onmessage = async ({ data }) => {
 
 async function evolve({ core: packed, experiment, seed }) {
   const core = await Core.load(await unzipped(packed));
-  const task = core.task(experiment.problem, experiment.spec, experiment.agent);
+  const task = core.task(experiment);
   const run = core.run(task, experiment, seed);
   const began = performance.now();
   let [told, steps] = [0, 0];

@@ -252,7 +252,7 @@ function anew(f) {
   f.robot = f.robot ?? new Robot(page.pendulum);
   const { experiment } = page.pendulum;
   if (f.run) core.c.run_end(f.run.place);
-  f.run = core.run(f.robot.task, { ...experiment, algorithm: [1, s.size, 0, s.mutrate, 0, 0] }, s.seed);
+  f.run = core.run(f.robot.task, { ...experiment, algo: "SSS", algorithm: { popsize: s.size, mutrate: s.mutrate } }, s.seed);
   f.rows = [];
   f.ran = { size: s.size, words: `${s.size}, rate ${s.mutrate.toFixed(2)}` };
   f.odd = false;

@@ -66,7 +66,7 @@ function anew(f) {
   f.stop();
   const { state: s } = f;
   const { experiment } = page.acrobot;
-  const evaluation = [+s.episodes, +s.pepisodes, ...experiment.evaluation.slice(2)];
+  const evaluation = { ...experiment.evaluation, episodes: +s.episodes, pepisodes: +s.pepisodes };
   f.robots = f.robots ?? SEEDS.map((seed) => new Robot(page.acrobot, seed));
   for (const { scene } of f.robots) scene.view = [-2.05, -2.15, 2.05, 2.05];
   f.runs?.forEach((run) => core.c.run_end(run.place));

@@ -30,7 +30,7 @@ function shapeOf(body) {
 // A walker in the core: one's brain in another's body.
 class Walker {
   constructor() {
-    this.task = core.task(page.walking.problem, page.walking.spec);
+    this.task = core.task(page.walking);
     this.bench = core.bench(this.task, false, STEPS);
     this.saved = page.walkers.map((text) =>
       Float64Array.from(new Float32Array(Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer)));

@@ -67,9 +67,8 @@ function trained(s) {
 
 // Begins the episodes of an iteration.
 function runs(f) {
-  const { experiment: { problem, spec } } = page.pole;
   if (!f.benches) {
-    const task = core.task(problem, spec);
+    const task = core.task(page.pole.experiment);
     f.benches = Array.from({ length: EPISODES }, () => core.bench(task, 0, LONGEST));
   }
   const { state: s } = f;

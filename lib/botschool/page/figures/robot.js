@@ -4,8 +4,8 @@
 class Robot {
   constructor(given, seed = given.seed) {
     Object.assign(this, { given, seed });
-    const { problem, spec, agent, heterogeneous, limit: longest } = given.experiment;
-    this.task = core.task(problem, spec, agent);
+    const { heterogeneous, limit: longest } = given.experiment;
+    this.task = core.task(given.experiment);
     this.bench = core.bench(this.task, heterogeneous, longest);
     this.longest = longest;
     this.scene = { ...given.scene };
