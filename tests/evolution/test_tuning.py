@@ -100,6 +100,8 @@ def test_a_stopped_tuning_continues_and_its_best_file_runs(plan, tmp_path, comma
 
     assert not tune(plan, stopping=stopping)
     assert len(trials(plan)) < 9
+    # what a killed process leaves
+    (plan.path / "study.log.lock").symlink_to(plan.path / "study.log")
     assert tune(plan)
     assert trials(plan) == whole
     refused = command("tune", plan.experiment.path, "-o", tmp_path / "tuned", "--steps", 700)

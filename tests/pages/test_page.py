@@ -10,7 +10,7 @@ import re
 import shutil
 import subprocess
 import sys
-from dataclasses import replace
+from dataclasses import make_dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -453,6 +453,31 @@ def test_an_algorithm_that_pages_lack_is_refused(algo, refused, tmp_path):
     file.write_text("\n".join(lines) + "\n")
     refused("page", file, "-o", tmp_path / "a.html", says=[algo, "OpenAI-ES or SSS"])
     assert not (tmp_path / "a.html").exists()
+
+
+def test_a_hyperparameter_that_the_core_does_not_know_is_refused(tmp_path):
+    experiment = experiment_of("Acrobot-v1", "OpenAI-ES")
+    more = make_dataclass("More", [("momentum", float, 0.9)], bases=(type(experiment.algo),))
+    experiment.algo = more(**vars(experiment.algo))
+    with pytest.raises(BotschoolError, match="momentum"):
+        page.write_page(tmp_path / "a.html", experiment)
+
+
+@built
+def test_the_core_refuses_settings_that_it_does_not_know(tmp_path):
+    place = str(SCRIPTS / "classic.wasm")
+    said = node(
+        tmp_path,
+        f"""
+const core = await Core.load(readFileSync({place!r}));
+const asked = (given) => {{
+  try {{ return [...core.settings("SSS", given)]; }} catch (error) {{ return error.message; }}
+}};
+const right = {{ mutrate: 0.5, popsize: 20 }};
+console.log(JSON.stringify([asked(right), asked({{ popsize: 20 }}), asked({{ ...right, elite: 3 }})]));
+""",
+    )
+    assert said[0] == [20, 0.5] and "mutrate" in said[1] and "elite" in said[2]
 
 
 HASH = """(async () => {

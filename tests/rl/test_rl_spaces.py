@@ -115,6 +115,7 @@ class Unpainted(Asserting):
 
 
 gymnasium.register("Unpainted-v0", Unpainted)
+gymnasium.register("Unlimited-v0", lambda: gymnasium.make("Pendulum-v1").unwrapped)
 for name, space in ACTIONS.items():
     gymnasium.register(f"Acts-{name.replace(' ', '')}-v0", Asserting, kwargs={"acts": space})
 for name, space in OBSERVATIONS.items():
@@ -198,3 +199,13 @@ class Goals(Asserting):
 
 
 gymnasium.register("Goals-v0", Goals)
+
+
+@pytest.mark.parametrize(
+    ("wrapper", "steps"), [("", 1000), ("TimeLimit(max_episode_steps=1200)", 1200)]
+)
+def test_episodes_without_a_limit_are_cut(wrapper, steps):
+    env = make("Unlimited-v0", wrapper)
+    env.reset(seed=1)
+    cut = [env.step(env.action_space.sample())[3] for _ in range(steps)]
+    assert cut == [False] * (steps - 1) + [True]

@@ -14,7 +14,7 @@ from stable_baselines3.common.on_policy_algorithm import OnPolicyAlgorithm
 
 from botschool.problems.base import Interrupted
 from botschool.rl.agent import Agent, play, save_model
-from botschool.rl.environments import make
+from botschool.rl.environments import LONGEST_EPISODE, endless, make
 from botschool.rl.folder import Evaluations, RunFolder
 from botschool.rl.settings import Settings
 from botschool.seeds import POST_EVALUATION_SEED
@@ -105,6 +105,12 @@ class PostEvaluation(BaseCallback):
         except Interrupted:  # these episodes do not count
             self.save()
             return
+        if self.found is None and endless(self._envs[0]) and lengths.max() == LONGEST_EPISODE:
+            print(
+                f"note: {self.settings.env} sets no limit to its episodes: they are cut after "
+                f'{LONGEST_EPISODE} steps (--wrapper "TimeLimit(max_episode_steps=N)" sets another)',
+                file=sys.stderr,
+            )
         best = -np.inf if self.found is None else self.found.best
         self.found = Evaluations.after(self.found, self.num_timesteps, returns, lengths)
         if returns.mean() >= best:  # of two equal ones, keep the one that was trained longer

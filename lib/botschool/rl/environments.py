@@ -14,8 +14,9 @@ from botschool.problems.making import make_env, skipping
 from botschool.problems.spaces import PlainObservations, Unsupported, performed, plain_actions
 from botschool.wrappers import parse
 
-LONGEST_EPISODE = 10_000
-"""Episodes end after this many steps if the environment sets no limit itself."""
+LONGEST_EPISODE = 1000
+"""Episodes are cut after this many steps, as evolution cuts them, if neither the environment nor a
+wrapper TimeLimit sets a limit."""
 
 LARGEST_REWARD = 1e15
 """Squares of the returns of the longest episodes must be numbers of single precision."""
@@ -28,11 +29,17 @@ def make(name: str, wrapped: str = "", /, **options: Any) -> gymnasium.Env:
     """
     wrappers = parse(wrapped)
     env = make_env(name, **(skipping(name, wrappers) | options))
-    if env.spec is not None and env.spec.max_episode_steps is None:
+    if endless(env) and not any(wrapper.name == "TimeLimit" for wrapper in wrappers):
         env = gymnasium.wrappers.TimeLimit(env, LONGEST_EPISODE)
     for wrapper in wrappers:
         env = wrapper.around(env, name)
     return Guard(env, name)
+
+
+def endless(env: gymnasium.Env) -> bool:
+    """Return whether an environment sets no limit to its episodes; a wrapper may set one."""
+    spec = env.unwrapped.spec
+    return spec is not None and spec.max_episode_steps is None
 
 
 def described(space: spaces.Space) -> str:

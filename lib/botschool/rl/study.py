@@ -93,7 +93,8 @@ def open_study(folder: Path, seed: int, number: int) -> Study:
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", optuna.exceptions.ExperimentalWarning)
-        storage = optuna.storages.JournalStorage(JournalFileBackend(str(folder / "study.log")))
+        journal = JournalFileBackend(str(folder / "study.log"), lock_obj=Unlocked())
+        storage = optuna.storages.JournalStorage(journal)
         return optuna.create_study(
             study_name="tune",
             storage=storage,
@@ -102,6 +103,19 @@ def open_study(folder: Path, seed: int, number: int) -> Study:
             sampler=optuna.samplers.TPESampler(seed=1000 * seed + number, n_startup_trials=STARTUP),
             pruner=optuna.pruners.MedianPruner(n_startup_trials=STARTUP, n_warmup_steps=1),
         )
+
+
+class Unlocked:
+    """A lock of Optuna's journal that is always free: `locked(folder)` keeps others away, and a
+    lock of Optuna's own would outlive a killed process.
+    """
+
+    def acquire(self) -> bool:
+        """Take it."""
+        return True
+
+    def release(self) -> None:
+        """Give it back."""
 
 
 def ended(study: Study) -> list:
