@@ -75,7 +75,7 @@ void bind_evolution(nb::module_& module) {
       .def("normals", &fill)
       .def("below", &below)
       .def("permutation", &permutation);
-  module.def("settings", [](const std::string& group) { return names_of_settings(group.c_str()); });
+  module.def("settings", &names_of_settings);
   module.def("power", [](double base, unsigned exponent) {
     if (!(base > 0 && base < 1)) throw std::invalid_argument("the base must lie between 0 and 1.");
     return power(base, exponent);
