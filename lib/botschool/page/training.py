@@ -153,7 +153,7 @@ def _parts(ppo: PPO) -> list[tuple[str, list[int], int]]:
 def _algorithm(settings: Settings, h: Hyperparameters) -> dict[str, Any]:
     """Return all hyperparameters but those of the networks, which `spec` and `layers` have."""
     found = {key: value for key, value in vars(h).items() if key not in NETWORKS}
-    for name in SCHEDULED:
+    for name in (*SCHEDULED, "clip_range_vf"):
         falling = linear(found[name])
         found[name] = float(found[name] or 0) if falling is None else falling
         found[f"{name}_falls"] = falling is not None
