@@ -474,7 +474,8 @@ const asked = (given) => {{
   try {{ return [...core.settings("SSS", given)]; }} catch (error) {{ return error.message; }}
 }};
 const right = {{ mutrate: 0.5, popsize: 20 }};
-console.log(JSON.stringify([asked(right), asked({{ popsize: 20 }}), asked({{ ...right, elite: 3 }})]));
+const answers = [right, {{ popsize: 20 }}, {{ ...right, elite: 3 }}].map(asked);
+console.log(JSON.stringify(answers));
 """,
     )
     assert said[0] == [20, 0.5] and "mutrate" in said[1] and "elite" in said[2]

@@ -203,7 +203,8 @@ def packed(content: bytes) -> str:
 
 
 def named(group: str, settings: dict[str, Any]) -> dict[str, Any]:
-    """Return the settings of a group, which the core takes by their names (lib/evolution/settings.hpp).
+    """Return the settings of a group, which the core takes by their names
+    (lib/evolution/settings.hpp).
 
     Raises BotschoolError for a setting that the core does not know, and for one that is missing.
     """

@@ -107,8 +107,9 @@ class PostEvaluation(BaseCallback):
             return
         if self.found is None and endless(self._envs[0]) and lengths.max() == LONGEST_EPISODE:
             print(
-                f"note: {self.settings.env} sets no limit to its episodes: they are cut after "
-                f'{LONGEST_EPISODE} steps (--wrapper "TimeLimit(max_episode_steps=N)" sets another)',
+                f"note: {self.settings.env} sets no limit to its episodes: they are cut "
+                f"after {LONGEST_EPISODE} steps. Another limit: "
+                '--wrapper "TimeLimit(max_episode_steps=N)"',
                 file=sys.stderr,
             )
         best = -np.inf if self.found is None else self.found.best
