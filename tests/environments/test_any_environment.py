@@ -85,6 +85,7 @@ def test_actions_are_in_their_space():
     assert plate.contains(given) and given.tolist() == [[1, 0.5], [-1, 0]]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["Nested", "Buttons", "Plate", "Picture"])
 def test_they_evolve_alike_with_workers_and_resumed(name, tmp_path):
     own = experiment(tmp_path / name, f"tiny_envs:{name}-v0", maxmsteps=0.0006)
@@ -99,6 +100,7 @@ def loads(library):
         return ctypes.CDLL(library)
 
 
+@pytest.mark.slow
 def test_mujoco_is_filmed_without_a_display(tmp_path):
     """In a process of its own: what draws is chosen once."""
     pytest.importorskip("mujoco")
@@ -161,6 +163,7 @@ def fitness(name, around="", maxsteps=30, seed=3):
     return outcome.fitness, problem.interface.observations
 
 
+@pytest.mark.slow
 def test_wrappers_wrap_the_first_one_innermost():
     plain, _ = fitness("tiny_envs:Tiny-v0")
     doubled, size = fitness("tiny_envs:Tiny-v0", "tiny_envs:Doubled")
@@ -183,6 +186,7 @@ def test_an_alive_bonus_is_paid_for_steps_that_do_not_end_the_episode():
     assert len(rewards) > 5 and rewards == [1.5] * (len(rewards) - 1) + [1.0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("apart", [False, True])
 def test_limbs_apart_touch_the_ground_only(apart):
     """A humanoid that is dropped and kicks its legs together."""
@@ -218,6 +222,7 @@ def test_native_problems_are_wrapped_as_environments(name):
     assert more == size + 1 and np.isfinite(returns).all()
 
 
+@pytest.mark.slow
 def test_an_experiment_file_names_wrappers(tmp_path, command):
     ini = write_experiment(tmp_path, "tiny_envs:Tiny-v0", maxmsteps=0.0006)
     text = ini.read_text().replace("algo =", "wrappers = tiny_envs:Doubled(times=5)\nalgo =")

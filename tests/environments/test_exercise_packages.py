@@ -54,6 +54,7 @@ def missing(names: set[str], extras: tuple[str, ...]) -> set[str]:
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", NUMBERS)
 def test_an_exercise_declares_what_it_imports(number):
     (solution,) = (ROOT / "solutions").glob(f"ex{number:02d}_*")
@@ -64,6 +65,7 @@ def test_an_exercise_declares_what_it_imports(number):
     assert not missing(names - BROUGHT, load_exercise(number, ROOT).extras)
 
 
+@pytest.mark.slow
 def test_the_library_imports_only_what_the_project_declares():
     """A package that comes with another one today, as click came with typer, may not tomorrow."""
     names = {each for path in ROOT.glob("lib/botschool/**/*.py") for each in imported(path)}

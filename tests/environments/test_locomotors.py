@@ -19,7 +19,10 @@ pytest.importorskip("pybullet")
 BODIES = ("Hopper", "HalfCheetah", "Ant", "Walker2D", "Humanoid")
 IDS = [f"{body}BulletEnv-v{version}" for body in BODIES for version in (0, 5)]
 
-pytestmark = pytest.mark.filterwarnings("ignore:.*(out of date|argv|Overriding).*")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.filterwarnings("ignore:.*(out of date|argv|Overriding).*"),
+]
 
 
 @pytest.fixture

@@ -134,6 +134,7 @@ def test_a_run_of_our_face_leaves_what_the_native_problem_leaves(tmp_path):
 # runs
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("algo", ALGORITHMS)
 def test_they_evolve_alike_with_workers_and_resumed(algo, tmp_path):
     own = write(tmp_path, algo=algo, policy={"episodes": 2})
@@ -146,6 +147,7 @@ def test_they_evolve_alike_with_workers_and_resumed(algo, tmp_path):
     assert same(tmp_path / "whole", tmp_path / "parts")
 
 
+@pytest.mark.slow
 def test_each_side_is_ranked_by_its_own_returns(tmp_path):
     own = config.load(write(tmp_path, policy={"episodes": 2}))
     assert run(tmp_path / "own.ini", tmp_path / "run")

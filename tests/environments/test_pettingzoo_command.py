@@ -21,12 +21,14 @@ def es(tmp_path, command):
     return lambda *more: command("es", "-f", own, "-s", 3, "-o", tmp_path / "run", "-p", *more)
 
 
+@pytest.mark.slow
 def test_it_says_who_is_who(tmp_path, command):
     code, out, errors = command("es", "-f", write(tmp_path), "-o", tmp_path / "run")
     assert (code, errors) == (0, "")
     assert out.endswith("bestgS1.npy (predators are cat, prey are mouse)\n")
 
 
+@pytest.mark.slow
 def test_pairs_are_measured_and_watched(es, tmp_path):
     code, measured, errors = es("-g", "p-3-2")
     assert (code, errors) == (0, "")
@@ -38,6 +40,7 @@ def test_pairs_are_measured_and_watched(es, tmp_path):
     assert f"mean fitness of the prey: {np.mean([float(m) for *_, m in shown]):.2f}" in out
 
 
+@pytest.mark.slow
 def test_the_best_of_both_are_filmed_with_their_neurons(es, tmp_path):
     best = tmp_path / "run" / "bestgS3.npy"
     code, out, errors = es("-g", best, "-d", "--video", tmp_path / "duel.mp4")
@@ -45,6 +48,7 @@ def test_the_best_of_both_are_filmed_with_their_neurons(es, tmp_path):
     assert (tmp_path / "duel.mp4").stat().st_size > 1000
 
 
+@pytest.mark.slow
 def test_generations_meet(es, command, tmp_path):
     code, out, _ = es("-g", "m-3-1")
     assert code == 0 and "its prey" in out

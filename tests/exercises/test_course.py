@@ -96,6 +96,7 @@ def test_no_grader_keeps_what_follows_from_the_seeds_of_one_submission(number):
     assert not kept & draws
 
 
+@pytest.mark.slow
 def test_a_sixteenth_exercise_is_two_folders(sixteen, tmp_path):
     pytest.importorskip("torch")
     root, env = sixteen
@@ -151,6 +152,7 @@ def test_robots_are_those_of_the_experiment_file(tmp_path):
     assert np.array_equal(evolved, np.load(tmp_path / "bestgS5.npy"))
 
 
+@pytest.mark.slow
 def test_exercise_9_is_graded_without_pybullet(without_pybullet):
     exercise = load_exercise(9, ROOT)
     assert not exercise.extras
@@ -160,6 +162,7 @@ def test_exercise_9_is_graded_without_pybullet(without_pybullet):
     assert [task.points for task in result.tasks] == [task.max_points for task in tasks]
 
 
+@pytest.mark.slow
 def test_a_task_without_its_packages_is_not_graded(monkeypatch, capsys):
     monkeypatch.setenv("BOTSCHOOL_COURSE", str(ROOT))
     monkeypatch.setattr(

@@ -10,6 +10,8 @@ pytest.importorskip("stable_baselines3")
 
 from botschool.rl import reference
 
+pytestmark = pytest.mark.slow
+
 FILE = Path(__file__).parents[2] / "solutions/ex13_inside_ppo/inside_ppo.py"
 UPDATES = {
     "CartPole-v1": [

@@ -56,6 +56,7 @@ def files(folder):
     return {path.name: path.read_bytes() for path in folder.glob("*.npy")}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("algo", "options"), STRATEGIES)
 def test_it_evolves_and_resumes_and_runs_side_by_side(folder, algo, options):
     (folder / "a.ini").write_text(INI.format(algo, options))
@@ -70,6 +71,7 @@ def test_it_evolves_and_resumes_and_runs_side_by_side(folder, algo, options):
     assert files(folder / "one") == files(folder / "two") == files(folder / "three")
 
 
+@pytest.mark.slow
 def test_a_strategy_that_changed_is_not_resumed(folder):
     (folder / "a.ini").write_text(INI.format("mine:Climber", ""))
     es = ("es", "-f", "a.ini", "-s", "3")

@@ -12,6 +12,8 @@ import pytest
 
 torch = pytest.importorskip("torch")
 
+pytestmark = pytest.mark.slow
+
 WALKTHROUGHS = Path(__file__).parents[2] / "lib" / "walkthroughs"
 NAMES = ("regression", "crossentropy", "ppo")
 TINY_PPO = {"total_timesteps": 256, "n_envs": 2, "n_steps": 32, "batch_size": 16, "n_epochs": 2}

@@ -88,6 +88,7 @@ def test_metres_and_poles_are_those_of_the_robots(tmp_path):
     assert longest_pole(read_entry(entry(tmp_path, tmp_path / "g.npy", "cartpole", "Gus"))) > 1.5
 
 
+@pytest.mark.slow
 def test_a_laboratory_tells_its_experiment(command, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     condition = load_lab(9).conditions[0]

@@ -14,7 +14,10 @@ import pytest
 
 from botschool.sandbox import paths
 
-pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="confined on Linux only")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(sys.platform != "linux", reason="confined on Linux only"),
+]
 ATTACKS = Path(__file__).with_name("attacks.py")
 FULL = "it wrote more than 40 MB of files"
 IN_ALL = "it wrote more than 160 MB to the disk in all"

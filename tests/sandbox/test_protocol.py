@@ -34,6 +34,7 @@ def same(one, two):
     return type(one) is type(two) and (one == two or one != one)
 
 
+@pytest.mark.slow
 @given(plain)
 def test_round_trip(value):
     assert same(value, protocol.unpack(protocol.pack(value)))
@@ -123,6 +124,7 @@ def test_sending_is_bounded():
     os.close(writing)
 
 
+@pytest.mark.slow
 def test_too_many_arrays():
     with pytest.raises(protocol.NotPlain, match="arrays, which are too many"):
         protocol.pack([np.zeros(0)] * 60_000)

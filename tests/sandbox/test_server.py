@@ -14,6 +14,7 @@ from botschool.sandbox import Allowance, Child, ForkServer, Limits, SandboxError
 from botschool.sandbox.exceptions import nearest
 
 
+@pytest.mark.slow
 def test_imports_are_made_before_a_child_starts(tmp_path):
     slow = tmp_path / "site-packages"
     slow.mkdir()
@@ -130,6 +131,7 @@ def test_places(sandboxed):
 BUSY = "def work(seconds):\n    import time\n    while time.process_time() < seconds: pass\n"
 
 
+@pytest.mark.slow
 def test_an_endless_loop_and_an_endless_sleep(sandboxed):
     busy, idle = Allowance(0.5), Allowance(0.5)
     one = sandboxed(BUSY + "def nap():\n    import time\n    time.sleep(10**6)\n")
@@ -143,6 +145,7 @@ def test_an_endless_loop_and_an_endless_sleep(sandboxed):
         assert busy.processor >= 0.5 and not busy.slept
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "sched_setaffinity"), reason="pins processes")
 def test_a_busy_machine_costs_no_time(sandboxed, server):
     """0.7 seconds of processor time, of one allowed, while nine programs share a processor."""
