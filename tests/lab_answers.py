@@ -12,12 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from botschool.labs.measuring import (
-    interval,
-    paired_test,
-    permutation_test,
-    seconds_per_million,
-)
+from botschool.labs.measuring import interval, paired_test, permutation_test, seconds_per_million
 
 SOLUTIONS = Path(__file__).parents[1] / "solutions"
 UNKNOWN = "my runs cannot tell"
@@ -29,14 +24,10 @@ class Does:
 
     parts: int
     """How many times smaller the budgets of the proofs are."""
-    drawn: tuple[str, str, str]
-    """The measure that the figure shows, and the names of its axes."""
     measure: str
     """The functions of measure.py."""
     conclude: Callable
     """Returns the answers after the table: of the measurements, and of all predictions."""
-    shown: str = ""
-    """The beginning of the conditions that the figure shows."""
     prepare: Callable = lambda folder: None
     """What he does between `start` and `run`."""
     mark: Callable = lambda data: ""
@@ -74,20 +65,14 @@ def lab03(data, predicted):
     return found
 
 
-STUDENTS[3] = Does(
-    20,
-    ("fresh", "individuals", "mean return in new episodes"),
-    """
+STUDENTS[3] = Does(20, """
 def measure(run):
     post = run["stat"][:, 2]
     solved = (post >= 475).any()
     first = (post >= 475).argmax() + 1 if solved else len(post)
     return {"reported": post[-1], "fresh": play_again(run, seed=1, episodes=100).mean(),
             "evaluations": first * run["experiment"]["algo"]["popsize"], "solved": int(solved)}
-""",
-    lab03,
-    "Pendulum",
-)
+""", lab03)  # fmt: skip
 
 
 def lab04(data, predicted):
@@ -105,17 +90,11 @@ def lab04(data, predicted):
     return found | {"count": sum(each < 0.05 / 6 for each in p.values()), "episodes": ranking}
 
 
-STUDENTS[4] = Does(
-    10,
-    ("fresh", "setting", "mean return in new episodes"),
-    """
+STUDENTS[4] = Does(10, """
 def measure(run):
     found = play_again(run, seed=1, episodes=100)
     return {"reported": run["stat"][-1][2], "fresh": found.mean(), "spread": found.std(ddof=1)}
-""",
-    lab04,
-    "Pendulum",
-)
+""", lab04)  # fmt: skip
 
 
 def lab05(data, predicted):
@@ -131,10 +110,7 @@ def lab05(data, predicted):
     }
 
 
-STUDENTS[5] = Does(
-    4,
-    ("swapped", "stage", "return in the others' bodies"),
-    """
+STUDENTS[5] = Does(4, """
 def measure(run):
     def earned(genotype):
         return play_again(run | {"genotype": genotype}, seed=1, episodes=10).mean()
@@ -145,9 +121,7 @@ def measure(run):
         mine[-BODY:] = other[-BODY:]
         rows.append(earned(mine))
     return {"own": own, "swapped": np.mean(rows)}
-""",
-    lab05,
-)
+""", lab05)  # fmt: skip
 
 
 def lab06(data, predicted):
@@ -168,10 +142,7 @@ def lab06(data, predicted):
     }
 
 
-STUDENTS[6] = Does(
-    20,
-    ("turning", "kind", "turning (rad a step)"),
-    """
+STUDENTS[6] = Does(20, """
 def mean(values):
     return float(np.mean(values)) if len(values) else 0.0
 
@@ -192,9 +163,7 @@ def measure(run):
     keep, lose = (np.mean([each["rewards"].sum() for each in e]) for e in (ordinary, without))
     return {"return": keep, "lost": 1 - lose / keep if keep else 0.0, "search": told[0],
             "speed": told[1], "turning": told[2], "side": told[3]}
-""",
-    lab06,
-)
+""", lab06)  # fmt: skip
 
 
 def lab07(data, predicted):
@@ -213,10 +182,7 @@ def lab07(data, predicted):
     }
 
 
-STUDENTS[7] = Does(
-    4,
-    ("return", "stage", "mean return"),
-    """
+STUDENTS[7] = Does(4, """
 def measure(run):
     found = {}
     for name, share, gravity in (("return", "upright", 10.0), ("heavy", "heavy_upright", 12.0)):
@@ -224,9 +190,7 @@ def measure(run):
         found[name] = np.mean([sum(each) for each in seen["rewards"]])
         found[share] = np.mean([max(abs(each[-50:])) < 0.3 for each in seen["angles"]])
     return found
-""",
-    lab07,
-)
+""", lab07)  # fmt: skip
 
 
 def copy_strategy(folder):
@@ -251,10 +215,7 @@ def lab08(data, predicted):
     }
 
 
-STUDENTS[8] = Does(
-    20,
-    ("drop", "step size", "drop (share of the curve's height)"),
-    """
+STUDENTS[8] = Does(20, """
 def measure(run):
     average = run["stat"][:, 4]
     width = min(20, len(average))
@@ -263,11 +224,7 @@ def measure(run):
     drop = fall / np.ptp(curve) if np.ptp(curve) else 0.0
     fresh = play_again(run, seed=1, episodes=100).mean()
     return {"drop": drop, "severe": int(drop > 0.3), "fresh": fresh}
-""",
-    lab08,
-    "hopper",
-    copy_strategy,
-)
+""", lab08, copy_strategy)  # fmt: skip
 
 
 def tipping(data):
@@ -306,20 +263,12 @@ def lab09(data, predicted):
     }
 
 
-STUDENTS[9] = Does(
-    100,
-    ("metres", "bonus (reward per step)", "metres ahead (m)"),
-    """
+STUDENTS[9] = Does(100, """
 def measure(run):
     seen = record(run, seed=1)
     metres = seen["distance"][0] - seen["distance"][-1]
     return {"metres": metres, "ground": seen["feet"].mean(), "statue": int(metres < RULE)}
-""",
-    lab09,
-    "bonus",
-    copy_strategy,
-    mark09,
-)
+""", lab09, copy_strategy, mark09)  # fmt: skip
 
 LEARN = """
 import numpy as np
@@ -349,18 +298,12 @@ def lab12(data, predicted):
     return found | {"all-solved": int(sum(values["solved"].sum() for values in data.values()))}
 
 
-STUDENTS[12] = Does(
-    2,
-    ("episodes", "rule", "episodes until solved"),
-    """
+STUDENTS[12] = Does(2, """
 def measure(run):
     solved = run["stat"][:, 3] >= 195
     at = solved.argmax() if solved.any() else -1
     return {"episodes": run["stat"][at, 5], "solved": int(solved.any())}
-""",
-    lab12,
-    prepare=lambda folder: (folder / "learn.py").write_text(LEARN),
-)
+""", lab12, lambda folder: (folder / "learn.py").write_text(LEARN))  # fmt: skip
 
 
 @cache
@@ -382,19 +325,14 @@ def lab14(data, predicted):
     return found | {"p": p, "changes": changes}
 
 
-STUDENTS[14] = Does(
-    20,
-    ("steps", "condition", "steps"),
-    """
+STUDENTS[14] = Does(20, """
 def measure(run):
     stat = run["stat"]
     reached = stat[:, 2] >= GOALS[run["condition"].split()[0]]
     at = reached.argmax() if reached.any() else -1
     return {"steps": stat[at, 0], "reached": int(reached.any()),
             "fresh": play_again(run, seed=2, episodes=20).mean()}
-""",
-    lab14,
-)
+""", lab14)  # fmt: skip
 
 
 def lab15(data, predicted):
@@ -408,10 +346,7 @@ def lab15(data, predicted):
     }
 
 
-STUDENTS[15] = Does(
-    4,
-    ("historical", "who evolves", "historical progress (fitness)"),
-    """
+STUDENTS[15] = Does(4, """
 def measure(run):
     f = chases(run, best=5).mean(axis=(1, 3))
     def gain(f, ancient):
@@ -420,6 +355,4 @@ def measure(run):
             total += (f[g] - f[g - 1])[:g if ancient else len(f)].mean()
         return total
     return {"historical": gain(f, True), "later": gain(f[1:, 1:], True), "global": gain(f, False)}
-""",
-    lab15,
-)
+""", lab15)  # fmt: skip

@@ -16,7 +16,6 @@ from botschool.evolution.algorithms.sides import everyone, mean
 from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.record import RunFiles
 from botschool.labs.check import Check
-from botschool.labs.commands import QUICK
 from botschool.labs.declare import PARTS
 from botschool.labs.evolving import evaluator_of
 from botschool.labs.runs import ABOUT, make_runs, own_runs
@@ -39,20 +38,6 @@ def runs_of_another(place, other):
     shutil.rmtree(place.runs)
     shutil.copytree(other.runs, place.runs)
     return NOTHING, "belong to"
-
-
-def runs_of_another_renamed(place, other):
-    """Under the seeds of this student."""
-    shutil.rmtree(place.runs)
-    mine, his = (seeds_of(each.sheet(), each.lab) for each in (place, other))
-    for name, seeds in mine.items():
-        (place.runs / name).mkdir(parents=True)
-        for seed, old in zip(seeds, his[name], strict=True):
-            for path in (other.runs / name).glob(f"*S{old}*.np*"):
-                shutil.copy(path, place.runs / name / path.name.replace(str(old), str(seed)))
-    there = own_runs(place.lab, place.sheet(), place.runs)
-    assert all(len(runs) == place.lab.replications for runs in there.values())
-    return NOTHING, "Evolving from the same seeds gives other files"
 
 
 def another_robot(place, other):
@@ -90,14 +75,6 @@ def invented_number(place, other):
     most = len(cells(lab))
     left = FULL | {"measurements": round(10 + 15 * (most - 1) / most, 1)}
     return left, f"The table, {name}, {lab.titles[at]}: your runs give"
-
-
-def one_choice_against_its_data(place, other):
-    """The first choice of the conclusion."""
-    id = next(id for id in place.lab.statements if place.lab.fields[id].kind == "choice")
-    contradict(place, id)
-    left = FULL | {"conclusion": 25 - place.lab.statements[id].points}
-    return left, place.lab.fields[id].what
 
 
 def conclusions_against_their_data(place, other):
@@ -206,26 +183,6 @@ def forge_meeting(run, files):
     np.save(files.bestg, np.concatenate([networks[0], networks[len(networks) // 2]]))
 
 
-def quick_runs_as_full_ones(place, other):
-    """Their steps told as more, or their last generation as many."""
-    lab, quick = place.lab, place.folder / "runs-quick"
-    short = replace(lab, conditions=tuple(c.shortened(QUICK) for c in lab.conditions))
-    assert make_runs(short, place.sheet(), quick, 1, lab.replications)
-    full, brief = (own_runs(*each) for each in (
-        (lab, place.sheet(), place.runs), (short, place.sheet(), quick)))  # fmt: skip
-    shorter = []
-    for condition in lab.conditions:
-        pairs = list(zip(full[condition.name], brief[condition.name], strict=True))
-        if all(one.same(two) for one, two in pairs):
-            continue  # a single generation, in tests
-        shorter.append(condition.name)
-        for _, run in pairs:
-            forge_from(place, condition, run.seed, quick, run)
-    if len(shorter) == len(lab.conditions):
-        return NOTHING, OTHER_FILES
-    return without(lab, *shorter, evidence=0) | {"figure": 0}, OTHER_FILES
-
-
 def stretched(condition, stat, competitive):
     """A curve with the steps, or the generations, of a whole run."""
     algo = condition.load().algo if condition.kind == "evolving" else None
@@ -291,7 +248,6 @@ def numbers_written_in_another_way(place, other):
 SPOILED = [
     no_runs,
     runs_of_another,
-    runs_of_another_renamed,
     runs_of_another_forged,
     another_robot,
     too_few,
@@ -301,8 +257,7 @@ SPOILED = [
     spaces_in_the_prediction,
     invented_number,
     numbers_written_in_another_way,
-    one_choice_against_its_data,
     conclusions_against_their_data,
 ]
-IF_DRAWN = [another_robot_forged, a_run_of_another_experiment, quick_runs_as_full_ones]
+IF_DRAWN = [another_robot_forged, a_run_of_another_experiment]
 """Those of some of the runs, found where one of these is made again."""

@@ -96,7 +96,7 @@ def programs(place, mark=""):
     head, rest = path.read_text().split("def measure(", 1)
     head = head.replace("RULE = 5.0", f"RULE = {rule}")
     path.write_text(f"{head}{does.measure}\n\nif __name{rest.split('if __name')[1]}")
-    y, x_name, y_name = does.drawn
+    shown = place.lab.figure
     path = place.folder / "figure.py"
     path.write_text(
         f"""from matplotlib.figure import Figure
@@ -106,10 +106,10 @@ def figure(measurements):
     picture = Figure(layout="constrained")
     axes = picture.subplots()
     for x, (name, values) in enumerate(measurements.items()):
-        if name.startswith("{does.shown}"):
-            axes.plot([x] * len(values["{y}"]), values["{y}"], "o", alpha=0.6)
-    axes.set_xlabel("{x_name}")
-    axes.set_ylabel("{y_name}")
+        if name in {shown.conditions}:
+            axes.plot([x] * len(values["{shown.y}"]), values["{shown.y}"], "o", alpha=0.6)
+    axes.set_xlabel("condition")
+    axes.set_ylabel("{shown.y}, {shown.units[0]}")
     {mark}return picture
 
 

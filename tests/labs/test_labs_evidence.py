@@ -6,12 +6,10 @@ import shutil
 import numpy as np
 import pytest
 
-from botschool.grading.classes.similar import Sheet as Handed
-from botschool.grading.classes.similar import doubtful, sheets_section
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.trust import trust
 from botschool.labs.check import Check
-from botschool.labs.classes import WantedSheet, secret_choice, traces
+from botschool.labs.classes import secret_choice, traces
 from botschool.labs.confined import drawn_figure, student_file
 from botschool.labs.declare import load_lab
 from botschool.labs.evolving import told_fitness
@@ -147,45 +145,6 @@ def test_a_check_goes_on_where_runs_are_damaged(tmp_path):
                 (place.runs / name / f"{kind}S{seed}.npy").write_bytes(next(odd))
     assert Check(place, secret_choice(place, "secret")).all().points == 0
     assert len(traces(place)["robots"]) > 9
-
-
-def test_a_title_of_digits_is_no_laboratory(tmp_path):
-    class File:
-        name = "sheet.md"
-
-        def read(self, most):
-            return b"# Laboratory " + b"1" * 5000 + b". X"
-
-    assert not WantedSheet(load_lab(9))._is_ours(File())
-
-
-# --- other people
-def test_other_peoples_runs_and_names_are_told():
-    def handed(student, name, *robots, why=""):
-        return Handed(student, name, frozenset(robots), {"why": why, "best": "20"})
-
-    people = ["Ada Lovelace", "Bo Diddley", "Cy Young", "ada-7"]
-    assert (
-        doubtful([handed("Ada Lovelace", "Ada", "a"), handed("Bo Diddley", "B.", "b")], people)
-        == []
-    )
-    assert doubtful([handed("ada-7", "ADA"), handed("Cy Young", "")], people) == []
-    (told,) = doubtful([handed("Bo Diddley", "lovelace, ada")], people)
-    assert told.told == [
-        "Bo Diddley handed in a sheet with the name lovelace, ada, which is that of Ada Lovelace."
-    ]
-    (told,) = doubtful([handed("Ada Lovelace", "", "a", "b"), handed("Cy Young", "", "b")], people)
-    assert told.told == ["Ada Lovelace and Cy Young handed in the same runs: 1 of 2 and of 1."]
-    why = "Many individuals find better ones, because they try more at once."
-    ada, cy = handed("Ada Lovelace", "", why=why), handed("Cy Young", "", why=why.lower()[:-1])
-    (told,) = doubtful([ada, cy, handed("Bo Diddley", "", why="I do not know yet, sorry.")], people)
-    assert told.told == ["Ada Lovelace and Cy Young give the same reason in their predictions."]
-    shown = sheets_section("lab3", [told])
-    assert shown.count("<div><h2>") == 2 and shown.count("try more at once") == 2
-    assert (
-        doubtful([handed("Ada Lovelace", "", why="No."), handed("Cy Young", "", why="No.")], people)
-        == []
-    )
 
 
 @pytest.mark.slow

@@ -58,9 +58,9 @@ def problems(
     ] = None,
 ) -> None:
     """List the native problems, or the quantities of one that `reward` and `ends` may name."""
-    from rich.console import Console
     from rich.table import Table
 
+    from botschool.console import Console
     from botschool.interface.problem import problem
     from botschool.problems.native import NATIVE
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -39,7 +38,7 @@ LARGEST = {"nhiddens": 1000, "nhiddens2": 1000, "nlayers": 10}
 SUFFIX = ".robot.npz"
 
 
-class Unusable(ValueError):
+class Unusable(Exception):
     """The file is no entry; the text is a sentence that follows the file's name."""
 
 
@@ -52,6 +51,11 @@ class Entry:
     """The name that the owner chose; "" if the owner stays anonymous."""
     experiment: Experiment
     genotype: np.ndarray
+
+    @property
+    def shown(self) -> str:
+        """Return the name for the league's page."""
+        return self.name or "anonymous"
 
     @property
     def discipline(self) -> str:
@@ -71,8 +75,9 @@ def write_entry(genotype: Path, experiment: Path | None, name: str, output: Path
     experiment: an .ini file; None for a run of a laboratory, whose folders tell the experiment.
     """
     numbers = read_genotype(genotype := own_file(genotype, "genotypes"))
-    told = load(own_file(experiment, "experiments")) if experiment else _of_laboratory(genotype)
-    parts = to_dict(told)
+    parts = to_dict(
+        load(own_file(experiment, "experiments")) if experiment else _of_laboratory(genotype)
+    )
     about = json.dumps({"exp": parts["exp"], "policy": parts["policy"]})
     name = " ".join(name.split())[:MAX_NAME]
     path = output or Path(f"{genotype.stem}{SUFFIX}")
@@ -107,22 +112,18 @@ def read_entry(path: Path) -> Entry:
         name, about, genotype = (
             member(content, key, MAX_CONTENT) for key in ("name", "experiment", "genotype")
         )
-    except KeyError as error:
-        raise Unusable(f"lacks {error}: make it with botschool enter.") from None
-    except ValueError as error:
-        raise Unusable(
-            f"is damaged, or no entry ({error}): make it with botschool enter."
-        ) from None
-    if name.dtype.kind != "U" or name.shape or about.dtype.kind != "U" or about.shape:
-        raise Unusable("has no name or experiment as text: make it with botschool enter.")
-    try:
+        if name.dtype.kind != "U" or name.shape or about.dtype.kind != "U" or about.shape:
+            raise Unusable("has no name or experiment as text")
         return read_robot(path.name, str(name), str(about), genotype)
     except Unusable:
         raise
+    except KeyError as error:
+        why = f"lacks {error}"
+    except ValueError as error:
+        why = f"is damaged, or no entry ({error})"
     except Exception as error:  # what an entry states can be wrong in any way
-        raise Unusable(
-            f"cannot play ({type(error).__name__}): make it with botschool enter."
-        ) from None
+        why = f"cannot play ({type(error).__name__})"
+    raise Unusable(f"{why}: make it with botschool enter.")
 
 
 def read_robot(file: str, name: str, about: str, genotype: np.ndarray) -> Entry:
@@ -137,23 +138,18 @@ def read_robot(file: str, name: str, about: str, genotype: np.ndarray) -> Entry:
         raise Unusable("has an experiment that cannot be read.") from None
     environment = ALIKE.get(environment, environment)
     if environment not in DISCIPLINES:
-        raise Unusable(
-            f"is of {environment[:40]!r}, which has no discipline here; choose one of "
-            f"{', '.join(DISCIPLINES)}."
-        )
+        there = ", ".join(DISCIPLINES)
+        raise Unusable(f"is of {environment[:40]!r}, which has no discipline here: {there} have.")
     for key, most in LARGEST.items():
         value = policy.get(key, 0)
         if not isinstance(value, int) or value > most:
             raise Unusable(f"has {key} above {most}, or no number.")
-    algo = "coevo2" if environment == "ErPredprey" else "OpenAI-ES"
+    exp = {"environment": environment, "algo": "OpenAI-ES"}
+    if DISCIPLINES[environment] == "chase":
+        exp["algo"] = "coevo2"
+    shown = plain(" ".join(name.encode("utf-8", "replace").decode().split()))[:MAX_NAME]
     try:
-        parts: dict[str, Any] = {
-            "exp": {"environment": environment, "algo": algo},
-            "policy": policy,
-            "algo": {},
-        }
-        experiment = from_dict(parts, "its experiment")
-        shown = plain(" ".join(name.encode("utf-8", "replace").decode().split()))[:MAX_NAME]
+        experiment = from_dict({"exp": exp, "policy": policy, "algo": {}}, "its experiment")
         entry = Entry(file, shown, experiment, genotype)
         entry.robot()
     except BotschoolError as error:

@@ -103,7 +103,7 @@ def _equal(entries: list[Entry]) -> list[str]:
     groups: dict[tuple, list[str]] = {}
     for entry in entries:
         key = entry.discipline, repr(entry.experiment.policy), entry.genotype.tobytes()
-        groups.setdefault(key, []).append(f"{entry.file} ({shown_name(entry)})")
+        groups.setdefault(key, []).append(f"{entry.file} ({entry.shown})")
     return [f"The same robot: {', '.join(files)}." for files in groups.values() if len(files) > 1]
 
 
@@ -236,11 +236,6 @@ def means(chases: np.ndarray) -> tuple[list[float], list[float]]:
     predators = [float(row[mask].mean()) for row, mask in zip(chases, others, strict=True)]
     prey = [1 - float(row[mask].mean()) for row, mask in zip(chases.T, others.T, strict=True)]
     return predators, prey
-
-
-def shown_name(entry: Entry) -> str:
-    """Return the owner's name, or "anonymous"."""
-    return entry.name or "anonymous"
 
 
 def results_csv(league: League) -> bytes:

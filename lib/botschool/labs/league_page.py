@@ -9,16 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from botschool.grading.report.paper import paper
-from botschool.labs.entries import Entry
-from botschool.labs.league import (
-    CHASE_STEPS,
-    POLE_STEPS,
-    RACE_STEPS,
-    UNITS,
-    League,
-    Ranked,
-    shown_name,
-)
+from botschool.labs.league import CHASE_STEPS, POLE_STEPS, RACE_STEPS, UNITS, League, Ranked
 from botschool.output import save_bytes
 from botschool.render.replay import write_replay
 from botschool.render.scenes import scene_of
@@ -77,7 +68,7 @@ def _table(places: Sequence[Ranked]) -> str:
         first = ' class="first"' if each.rank == 1 else ""
         rows.append(
             f"<tr{first}><td class=n>{each.rank}</td><td class=name>"
-            f"{escape(shown_name(each.entry))}</td><td class=n>{each.result:.2f}</td>"
+            f"{escape(each.entry.shown)}</td><td class=n>{each.result:.2f}</td>"
             f'<td><div class=bar><i style="width:{width}%"></i></div></td></tr>'
         )
     table = f"<table>{''.join(rows[:SHOWN])}</table>"
@@ -91,7 +82,7 @@ def _replay(league: League, name: str, places: Sequence[Ranked], folder: Path) -
     """Return a frame with the page that replays the winner of a discipline."""
     first = places[0].entry
     problem, policy, genotype, normalisation = first.robot()
-    about, steps = shown_name(first), POLE_STEPS if name == "cart-pole" else RACE_STEPS
+    about, steps = first.shown, POLE_STEPS if name == "cart-pole" else RACE_STEPS
     if name == "prey":
         return ""
     if name == "predator":
@@ -117,9 +108,9 @@ def _pair(league: League, own: np.ndarray) -> tuple[np.ndarray, str]:
     """
     hunter, hunted = (league.tables[side][0].entry for side in ("predator", "prey"))
     if hunter.experiment.policy != hunted.experiment.policy:
-        return own, f"{shown_name(hunter)}, both"
+        return own, f"{hunter.shown}, both"
     pair = np.concatenate([np.split(hunter.genotype, 2)[0], np.split(hunted.genotype, 2)[1]])
-    return pair, f"{shown_name(hunter)} chases {shown_name(hunted)}"
+    return pair, f"{hunter.shown} chases {hunted.shown}"
 
 
 def _who(league: League) -> str:
@@ -137,14 +128,9 @@ def _who(league: League) -> str:
             f"{100 * league.chases[row, column]:.0f}</td>"
             for column in places("prey")
         )
-        rows.append(f"<tr><th class=row>{escape(_short(entry))}</th>{cells}</tr>")
+        rows.append(f"<tr><th class=row>{escape(entry.shown[:20])}</th>{cells}</tr>")
     return (
         "<h2>Who catches whom</h2><p class=soft>Predators in rows, prey in columns by rank; the "
         "share of time left at the catch, in percent. 0: not caught.</p>"
         f"<div class=who><table><tr><th></th>{head}</tr>{''.join(rows)}</table></div>"
     )
-
-
-def _short(entry: Entry) -> str:
-    name = shown_name(entry)
-    return name if len(name) <= 20 else f"{name[:19]}\N{HORIZONTAL ELLIPSIS}"
