@@ -197,9 +197,8 @@ def stability(curve: np.ndarray) -> dict:
 def train(environment: str, seed: int) -> np.ndarray:
     """A centre for Robot(environment), "CartPole-v0" or "Pendulum-v1", evolved from the seed.
 
-    Call your `evolve`, once or more often, and return the centre to which it has led. Its first
-    centre must not reach the goal already. The seed decides about the start and all samples:
-    another seed gives another evolution.
+    Return the centre to which your OpenAI-ES has led. The seed decides about the start and all
+    samples: another seed gives another evolution.
 
     Choose the hyperparameters yourself. On average over 100 new episodes, the pole of CartPole
     must stay up for 195 of 200 steps, and Pendulum must reach a return of -400. Seconds are enough.

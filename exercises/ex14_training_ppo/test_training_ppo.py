@@ -292,7 +292,8 @@ def told(found, indicators, total, chosen):
 def limits_give_no_sign(rng):
     """Means that equal the limit, and entries at the very border of the last third."""
     steps = np.arange(100, 3001, 100)
-    for level, size in ((0.0, 0.25), (0.0, 0.5), (1.75, 0.25), (-1.25, 0.5)):
+    levels = [0.0, 0.0, *(rng.integers(1, 9, 2) / (4, -4)).tolist()]
+    for level, size in zip(levels, (0.25, 0.5, 0.25, 0.5), strict=True):
         values = {"flat": np.full(30, level), "moving": level + size * (-1.0) ** np.arange(30)}
         indicators = {name: {"steps": steps, "values": each} for name, each in values.items()}
         indicators["early"] = {"steps": steps[:20], "values": np.full(20, level)}

@@ -271,7 +271,10 @@ def where_they_are(rng):
     yield along_the_walls(rng)
 
 
-@of_poses(behaviour, 1, "describe", parts=("backwards", "facing", "wall"))
+EXACT = "numbers that no formula rounds"
+
+
+@of_poses(behaviour, 1, "describe", parts=("backwards", "facing", "wall"), fixed=EXACT)
 def at_limits_and_at_rest(rng):
     """Exactly 300 mm from each wall; at rest, or moved straight to the side; just about 45 degrees.
 

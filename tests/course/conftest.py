@@ -23,7 +23,7 @@ def pytest_ignore_collect(collection_path, config):
 def secrets(request):
     """The secrets that --secrets asks for."""
     many = request.config.getoption("secrets")
-    return [f"secret {number}" for number in range(1, many + 1)]
+    return [f"secret of number {number:04}" for number in range(1, many + 1)]
 
 
 @pytest.fixture(scope="session")

@@ -134,7 +134,7 @@ def servers():
         yield {n: stack.enter_context(fork_server(building.exercise(n).imports)) for n in EXERCISES}
 
 
-SECRET = "another secret"
+SECRET = "another secret of ours"
 
 
 @pytest.fixture(scope="module")

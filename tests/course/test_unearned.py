@@ -100,7 +100,7 @@ def graded(tmp_path_factory):
             server.close()
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv(VARIABLE, "another secret")
+        patch.setenv(VARIABLE, "another secret of ours")
         yield grade
     close()
 

@@ -723,9 +723,9 @@ def test_grade_all_makes_a_secret_and_keeps_it(course, tmp_path, monkeypatch):
     assert len(secret.read_text().strip()) == 32 and secret.stat().st_mode & 0o77 == 0
     out, again = grade_class()
     assert f"follow from the secret in {secret}." in out and again == first
-    secret.write_text("another\n")
+    secret.write_text("another secret of ours\n")
     assert grade_class()[1] != first
-    monkeypatch.setenv("BOTSCHOOL_GRADING_SEED", "another")
+    monkeypatch.setenv("BOTSCHOOL_GRADING_SEED", "another secret of ours")
     out, own = grade_class()
     assert str(secret) not in out
     secret.unlink()

@@ -251,7 +251,7 @@ def test_equal_submissions_have_equal_seeds_and_others_have_others(course, monke
     at_home = exercise.seed(1)
     exercise.work = "a digest"
     assert exercise.seed(1) == at_home  # the same each time, for a student who looks for a fault
-    monkeypatch.setenv("BOTSCHOOL_GRADING_SEED", "some secret")
+    monkeypatch.setenv("BOTSCHOOL_GRADING_SEED", "some secret of ours")
     one = exercise.seed(1)
     assert exercise.seed(1) == one != at_home
     exercise.work = "another digest"
@@ -267,7 +267,7 @@ def test_what_a_grader_keeps_belongs_to_the_submission(course, monkeypatch):
         return exercise.seed(index)
 
     assert number(1) == number(1) and drawn == [1]
-    monkeypatch.setenv("BOTSCHOOL_GRADING_SEED", "some secret")
+    monkeypatch.setenv("BOTSCHOOL_GRADING_SEED", "some secret of ours")
     for work in ("a digest", "another digest", "a digest"):
         exercise.work = work
         assert number(1) == number(1) == exercise.seed(1)

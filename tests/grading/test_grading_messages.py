@@ -204,28 +204,6 @@ def test_where_an_endless_loop_was(graded, body):
         assert f"It was at tiny.py:4: {body}\n  called from tiny.py:6: g(x)" in message
 
 
-def stands(module):
-    from botschool.grading.run import pulse
-
-    pulse.STILL = pulse.LOOK = 0.2
-    with pulse.alive():
-        return module.double(1)
-
-
-def test_a_training_that_stands_still_is_not_tried_again(graded):
-    told = []
-
-    def twice(student):
-        for _ in range(2):
-            with pytest.raises(Wrong) as wrong:
-                student.run(stands, said="train(seed=1)")
-            told.append(str(wrong.value))
-
-    said(graded, "def double(x):\n    while True:\n        x += 1\n", twice, seconds=60)
-    assert re.match(r"train\(seed=1\) stands still: .*\n  tiny.py:[23]: ", told[0]), told[0]
-    assert told[1].startswith("It is not called again")
-
-
 def test_what_cannot_be_sent_is_explained(graded):
     for body, words in (("zip(x)", "list(...) makes a list"), ("print", "parentheses call it"),
                         ("...", "write your own code"), ("{1}", "no order")):  # fmt: skip

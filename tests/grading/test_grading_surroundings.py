@@ -1,69 +1,10 @@
 """What a submission finds around it while it is graded: functions and files of the grader's."""
 
-from functools import partial, wraps
-from types import SimpleNamespace
-
 import pytest
 
 from botschool.grading import Exercise, expect
 from botschool.grading.judge.submission import grade
-from botschool.grading.run.replaced import replaced
 from tiny_course import FILE, submit
-
-
-def power(base, exponent=2, *, scale=1):
-    return scale * base**exponent
-
-
-KEPT_ELSEWHERE = [power, partial(power, exponent=3)]
-
-
-def by_default(base, function=power):
-    return function(base)
-
-
-def counted(seen):
-    def instead(function):
-        def counting(*arguments, **options):
-            seen.append((arguments, options))
-            return function(*arguments, **options)
-
-        return counting
-
-    return instead
-
-
-def test_all_references_to_a_function_call_the_other_one():
-    module, seen = SimpleNamespace(power=power), []
-    with replaced(module, "power", counted(seen)):
-        assert module.power(3) == 9
-        assert KEPT_ELSEWHERE[0](3, scale=2) == 18
-        assert KEPT_ELSEWHERE[1](2) == 8
-        assert by_default(5) == 25
-    assert seen == [((3,), {}), ((3,), {"scale": 2}), ((2,), {"exponent": 3}), ((5,), {})]
-    assert power(3, scale=3) == 27
-    assert len(seen) == 4
-
-
-def test_a_function_may_be_replaced_twice():
-    module, seen = SimpleNamespace(power=power), []
-    with replaced(module, "power", counted(seen)), replaced(module, "power", counted(seen)):
-        assert by_default(2) == 4
-    assert len(seen) == 2
-    assert power(2) == 4
-
-
-def test_what_is_no_plain_function_is_replaced_by_name():
-    @wraps(power)
-    def decorated(*arguments):
-        return power(*arguments)
-
-    for function in (decorated, partial(power, 2), abs):
-        module, seen = SimpleNamespace(function=function), []
-        with replaced(module, "function", counted(seen)):
-            module.function(2)
-        assert len(seen) == 1
-        assert module.function is function
 
 
 @pytest.mark.slow

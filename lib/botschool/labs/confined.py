@@ -11,17 +11,17 @@ from typing import Any
 import numpy as np
 
 from botschool.grading.declare.checks import Wrong
+from botschool.grading.declare.libraries import Refused
 from botschool.grading.run.student import Student
 from botschool.grading.run.temporary import temporary_folder
-from botschool.labs.declare import NUMBERS
 from botschool.labs.sheet import made_by
 from botschool.sandbox.scratch import MAX_PICTURE, MAX_PICTURE_SIDE
 
 SECONDS = 30
 """Processor seconds for all calls of one file."""
 PICTURE = "figure.png"
-ANSWERS = tuple(f"botschool.labs.lab{number:02}" for number in NUMBERS)
-"""Modules with our own measures: they do not exist in the child process."""
+MAY_USE = frozenset({"botschool.labs.measuring"})
+"""The module of botschool that a student's file may use: no others exist in its process."""
 
 
 @contextmanager
@@ -33,7 +33,7 @@ def student_file(path: Path) -> Iterator[Student]:
         copy = folder / "submitted" / path.name
         copy.parent.mkdir()
         shutil.copyfile(path, copy)
-        student = Student(copy, seconds=SECONDS, refused=ANSWERS)
+        student = Student(copy, seconds=SECONDS, refused=Refused(may_use=MAY_USE))
         try:
             yield student
         finally:

@@ -26,7 +26,7 @@ from typing import Any
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import Exercise, Number, folder_of, load_exercise
-from botschool.grading.declare.state import DEFAULT, STATE, VARIABLE, make_state
+from botschool.grading.declare.state import DEFAULT, STATE, VARIABLE, given_secret, make_state
 from botschool.grading.judge.submission import SYNTAX, Result, TaskResult, grade
 from botschool.grading.run.confined import MachineFault, Unread, content_digest, machine_fault
 from botschool.grading.run.temporary import temporary_folder
@@ -81,7 +81,7 @@ class Grades:
         """
         self._root = root
         self._fresh = fresh
-        self._secret = secret or os.environ.get(VARIABLE) or DEFAULT
+        self._secret = secret or given_secret() or DEFAULT
         self._cache = root / STATE / "grades"
         self._exercises: dict[Number, Exercise] = dict(laboratories)
         self._running: set[subprocess.Popen] = set()

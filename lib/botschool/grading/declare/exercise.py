@@ -5,20 +5,22 @@ from __future__ import annotations
 import functools
 import hashlib
 import importlib.util
-import os
+import linecache
 import re
 import sys
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib import metadata
 from pathlib import Path
 from typing import Any
 
 from botschool.errors import BotschoolError, listed
+from botschool.grading.declare.libraries import Refused
 from botschool.grading.declare.mistakes import Known, case_text
+from botschool.grading.declare.modules import may_use
 from botschool.grading.declare.picture import Picture
 from botschool.grading.declare.references import pruned
-from botschool.grading.declare.state import DEFAULT, VARIABLE
+from botschool.grading.declare.state import DEFAULT, given_secret, slow_key
 from botschool.grading.declare.trust import check_trusted
 from botschool.paths import course_root, for_make
 
@@ -56,7 +58,7 @@ class Task:
     memory: int
     needs: tuple[str, ...] = ()
     """Tasks whose functions a submission calls in this one."""
-    refused: tuple[str, ...] = ()
+    refused: Refused = field(default_factory=Refused)
     extras: tuple[str, ...] = ()
     """The exercise's extras that the task needs."""
     exercise: Any = field(default=None, repr=False, compare=False)
@@ -134,6 +136,11 @@ class Exercise:
         self.known = Known(self.number, solution, mistakes)
         needed = {id for task in self.tasks for id in task.needs}
         self.references = pruned(solution, needed)
+        if self.grader is not None and solution:
+            used = may_use(solution, _text_of(self.grader))
+            self.imports = (*self.imports, *sorted(used - {*self.imports}))
+            for task in self.tasks:
+                task.refused = replace(task.refused, may_use=used)
 
     def task(
         self,
@@ -154,7 +161,8 @@ class Exercise:
         packages: the extras that this task needs; None for the exercise's packages.
         """
         extras = _wanted(self.packages if packages is None else packages)
-        self.tasks.append(Task(id, title, seconds, memory, needs, refused, extras, self))
+        given = needs, Refused(refused), extras, self
+        self.tasks.append(Task(id, title, seconds, memory, *given))
         return self.tasks[-1]
 
     def needed(self, task: Task) -> list[Task]:
@@ -195,13 +203,13 @@ class Exercise:
         same one after a change. A student's own work has the same seeds each time.
         """
         secret, work = self._sources()
-        key = f"{secret}:{self.number}:{index}{work}"
+        key = f"{slow_key(secret)}:{self.number}:{index}{work}"
         digest = hashlib.sha256(key.encode()).digest()
         return int.from_bytes(digest[:4], "little") % 2**31
 
     def _sources(self) -> tuple[str, str]:
         """Return the secret, and ":" with the digest of the submission if seeds depend on it."""
-        secret = self.secret or os.environ.get(VARIABLE) or DEFAULT
+        secret = self.secret or given_secret() or DEFAULT
         return secret, f":{self.work}" if secret != DEFAULT else ""
 
     def cached(self, function: Callable[..., Any]) -> Callable[..., Any]:
@@ -284,6 +292,15 @@ def load_exercise(number: int, root: Path | None = None) -> Exercise:
     if not exercise.known.solution and solution.is_file():
         exercise.knows(solution.read_text(encoding="utf-8"), case_text(root, number))
     return exercise
+
+
+def _text_of(grader: Any) -> str:
+    """Return a grader's text, also that of a packed one."""
+    own = (
+        each for each in vars(grader).values() if getattr(each, "__module__", "") == grader.__name__
+    )
+    codes = [each.__code__.co_filename for each in own if hasattr(each, "__code__")]
+    return "".join(linecache.getlines(codes[0])) if codes else ""
 
 
 def _module(name: str, file: Path) -> Any:

@@ -7,6 +7,21 @@ in the grader: it recognises finite differences in place of a gradient, for exam
 become wrong as soon as the loss is large beside the gradient (exercise 11).
 """
 
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Refused:
+    """What a submission's process does not have."""
+
+    names: tuple[str, ...] = ()
+    """In the forms of botschool/grading/run/refused.py."""
+    may_use: frozenset[str] | None = None
+    """Modules of botschool that a submission may use, so that no others exist; None for all."""
+
+
 _OPENAI_ES = "botschool.evolution.algorithms.openaies"
 _TORCH_IN_PYTHON = ("torch._refs", "torch._decomp")
 """Torch's operators once more, in Python."""

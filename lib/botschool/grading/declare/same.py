@@ -84,6 +84,7 @@ def same(
     view: Callable[..., Any] | None = None,
     off: dict[str, str] | None = None,
     name: str = "",
+    fixed: str = "",
 ) -> Callable[[Inputs], Inputs]:
     """Return a decorator of a function of a random generator that yields inputs.
 
@@ -98,6 +99,7 @@ def same(
     off: names from KEEPS, and the reason why a right answer need not keep this.
     name: the check's, where several share a function of inputs and may give it more arguments:
     same(decay, 4, "descent", name="by_sign")(slopes, 2); "" for the name of the function.
+    fixed: why the inputs are the same under every secret; "" if they are drawn.
     """
 
     def keep(inputs: Inputs, *given: Any, **named: Any) -> Inputs:
@@ -107,7 +109,7 @@ def same(
         def draw(rng: np.random.Generator) -> Iterable[Any]:
             return inputs(rng, *given, **named)
 
-        check = Same(task, what, draw, tolerance, parts, view, off or {})
+        check = Same(task, what, draw, tolerance, parts, view, off or {}, fixed)
         check.__name__ = name or inputs.__name__
         task.check(points)(check)
         return inputs
@@ -127,9 +129,10 @@ class Same:
         parts: tuple[str, ...],
         view: Callable[..., Any] | None,
         off: dict[str, str],
+        fixed: str,
     ) -> None:
         """Take what `same` takes."""
-        self.task, self.what, self.off = task, what, off
+        self.task, self.what, self.off, self.fixed = task, what, off, fixed
         self.tolerance, self.parts, self.view = tolerance, parts, view
         self._draw = inputs
         self.__name__ = inputs.__name__

@@ -6,12 +6,15 @@ Nobody can record answers beforehand whose inputs follow from a secret.
 from __future__ import annotations
 
 import contextlib
+import functools
+import hashlib
 import json
 import os
 import secrets
 from pathlib import Path
 from typing import Any
 
+from botschool.errors import BotschoolError
 from botschool.lock import alone
 from botschool.sandbox.inside import read_inside
 
@@ -23,6 +26,8 @@ VARIABLE = "BOTSCHOOL_GRADING_SEED"
 """Environment variable with the instructor's own secret."""
 DEFAULT = "botschool"
 """The secret for students' own grading."""
+LEAST = 16
+"""Characters of a secret: fewer can be found by trying."""
 FILE = "secret"
 """A file in the course's state folder: the secret made for an instructor without one."""
 
@@ -33,16 +38,38 @@ def grading_secret(state: Path) -> tuple[str, str]:
     The sentence is "" for the instructor's own secret. state: the folder that keeps the secret; a
     missing or read-only folder keeps none.
     """
-    given = os.environ.get(VARIABLE)
-    if given:
+    if given := given_secret():
         return given, ""
     with alone(state):
         return _kept_or_made(state / FILE)
 
 
+def given_secret() -> str:
+    """Return the instructor's own secret; "" if there is none. Raises BotschoolError."""
+    return _long_enough(os.environ.get(VARIABLE, ""), VARIABLE)
+
+
+def _long_enough(secret: str, place: str) -> str:
+    if secret and secret != DEFAULT and len(secret) < LEAST:
+        raise BotschoolError(
+            f"The secret in {place} has {len(secret)} characters, so it can be found by trying: "
+            f"take {LEAST} or more. This makes one: python3 -c 'import secrets; "
+            "print(secrets.token_hex(16))'."
+        )
+    return secret
+
+
+@functools.cache
+def slow_key(secret: str) -> str:
+    """Return what seeds follow from: each try to guess the secret takes some 50 ms."""
+    if secret == DEFAULT:
+        return secret
+    return hashlib.scrypt(secret.encode(), salt=b"botschool", n=2**14, r=8, p=1, dklen=32).hex()
+
+
 def _kept_or_made(place: Path) -> tuple[str, str]:
     try:
-        kept = place.read_text(encoding="utf-8").strip()
+        kept = _long_enough(place.read_text(encoding="utf-8").strip(), str(place))
         if kept:
             return kept, f"Grading seeds follow from the secret in {place}."
     except (OSError, UnicodeDecodeError):

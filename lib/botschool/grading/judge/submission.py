@@ -164,6 +164,8 @@ class Submission:
             self._exercise.work = self._digest()
             self._exercise.ours = ours_of(self._exercise, self._server)
         try:
+            if self._exercise is not None:
+                self._exercise.seed(0)  # raises at once for a secret that is too short
             self._prepare()
         except (Wrong, Unreadable) as error:
             self.banner, self._failure = self.banner or str(error), _NOT_GRADED

@@ -17,6 +17,8 @@ from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
+from botschool.grading.declare.libraries import Refused as RefusedModules
+from botschool.grading.declare.modules import closed_files, needed
 from botschool.grading.run.refused import hidden_files, hidden_modules, refuse
 from botschool.grading.run.temporary import PREFIX
 from botschool.paths import material
@@ -29,12 +31,13 @@ from botschool.sandbox.scratch import MAX_COPIED, regular_files
 # on a busy machine, 4,096 steps of PPO take 18.4 s with all threads and 0.9 s with one
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
-IMPORTS = ("gymnasium.envs.classic_control", "numpy.random", "botschool.evolution.run")
+IMPORTS = ("gymnasium.envs.classic_control", "numpy.random")
 """Modules that are imported before a submission runs."""
 _PRIVATE = ("solutions", "exercises", "tests", "results", "build", ".git", ".botschool")
 """The parts of a course folder that no submission may read."""
 
 
+NOTHING = RefusedModules()
 CLASS = "BOTSCHOOL_CLASS"
 """The environment variable with the folders that close_class has closed, as JSON."""
 
@@ -91,17 +94,22 @@ def start_child(
     file: Path,
     limits: Limits,
     references: dict[str, Any] | None = None,
-    refused: tuple[str, ...] = (),
+    refused: RefusedModules = NOTHING,
     in_parts: bool = False,
 ) -> Child:
     """Start a child for a submission's file, given by its original path. Raises BotschoolError.
 
-    refused: as in Exercise.task. in_parts: as in sandbox.Child.
+    refused: modules and functions that do not exist there. in_parts: as in sandbox.Child.
     """
-    prepare = [source_of(refuse), refuse.__name__, list(refused)] if refused else None
+    names, hidden, opened = list(refused.names), hidden_files(refused.names), None
+    if refused.may_use is not None:
+        opened = sorted(needed(refused.may_use))
+        hidden += closed_files(frozenset(opened))
+    prepare = None
+    if names or opened is not None:
+        prepare = [source_of(refuse), refuse.__name__, names, opened]
     with translated():
-        server = server.without(hidden_modules(refused))
-        hidden = hidden_files(refused)
+        server = server.without(hidden_modules(names))
         places = readable(file, hidden)
         # Python finds a module by the names in its folder
         listed = [p for p in _needed() if any(each.is_relative_to(p) for each in hidden)]
@@ -196,5 +204,5 @@ def _needed() -> list[Path]:
     import botschool._core
 
     own = paths.IMPORT_ROOT.resolve()  # lib/, or site-packages
-    core = Path(botschool._core.__file__).resolve().parent
+    core = Path(botschool._core.__file__).resolve()
     return [own / "botschool", core, *paths.interpreter_paths()]

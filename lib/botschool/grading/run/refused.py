@@ -57,8 +57,10 @@ def _places(name: str) -> list[Path]:
     return [Path(folder).resolve() for folder in search or []]
 
 
-def refuse(names):
+def refuse(names, opened=None):
     """Prepare this process for a task that refuses these names, before the submission is loaded.
+
+    opened: the only modules of botschool that exist; None for all.
 
     Return a function to call once it is loaded: until then, what a file computes with a stand-in
     on the side is a stand-in, too, and afterwards it is an error. The function is sent to the
@@ -109,7 +111,7 @@ def refuse(names):
 
     class Finder(importlib.abc.MetaPathFinder, importlib.abc.Loader):
         def find_spec(self, name, path=None, target=None):
-            if not is_hidden(name):
+            if not is_hidden(name) and not is_closed(name):
                 return None
             return importlib.machinery.ModuleSpec(name, self, is_package=True)
 
@@ -121,6 +123,11 @@ def refuse(names):
 
     def is_hidden(name):
         return any(name == each or name.startswith(f"{each}.") for each in hidden)
+
+    def is_closed(name):
+        if name.startswith("botschool.sandbox.") or opened is None:
+            return False
+        return name.startswith("botschool.") and name not in opened
 
     def code_for(function, name):
         """Return code that raises, with as many free names as the function's own code."""

@@ -13,13 +13,12 @@ import operator
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import expect, expect_array
-from botschool.grading.run.pulse import alive, beat
-from botschool.grading.run.replaced import replaced
 
 MOST_EPISODES = 20_000
 """Episodes of one question."""
@@ -119,31 +118,29 @@ def asking(environment: str, size: int, ask: Callable[[Any], dict]) -> Iterator[
     """
     from botschool.course.evaluation import Robot
 
-    def elsewhere(evaluate):
-        def evaluated(robot, population, seed, episodes=5, maxsteps=1000):
-            rows = np.ascontiguousarray(population, dtype=np.float64)
-            beat()
-            others = robot.environment != environment or rows.shape != (len(rows), size)
-            if others or not (0 < episodes <= MOST_EPISODES and 0 < maxsteps < 2**31):
-                return evaluate(robot, population, seed, episodes, maxsteps)
-            question = {
-                "seed": int(np.full(1, seed, dtype=np.uint64)[0]),
-                "episodes": operator.index(episodes),
-                "maxsteps": int(maxsteps),
-            }
-            at_once, parts = MOST_EPISODES // episodes, [np.empty(0)]
-            for first in range(0, len(rows), at_once):
-                found = ask({"population": rows[first : first + at_once], **question})
-                if "enough" in found:
-                    raise EnoughSeen
-                if "error" in found:
-                    raise BotschoolError(found["error"])
-                parts.append(found["fitness"])
-            return np.concatenate(parts)
+    evaluate = Robot.evaluate
 
-        return evaluated
+    def evaluated(robot, population, seed, episodes=5, maxsteps=1000):
+        rows = np.ascontiguousarray(population, dtype=np.float64)
+        others = robot.environment != environment or rows.shape != (len(rows), size)
+        if others or not (0 < episodes <= MOST_EPISODES and 0 < maxsteps < 2**31):
+            return evaluate(robot, population, seed, episodes, maxsteps)
+        question = {
+            "seed": int(np.full(1, seed, dtype=np.uint64)[0]),
+            "episodes": operator.index(episodes),
+            "maxsteps": int(maxsteps),
+        }
+        at_once, parts = MOST_EPISODES // episodes, [np.empty(0)]
+        for first in range(0, len(rows), at_once):
+            found = ask({"population": rows[first : first + at_once], **question})
+            if "enough" in found:
+                raise EnoughSeen
+            if "error" in found:
+                raise BotschoolError(found["error"])
+            parts.append(found["fitness"])
+        return np.concatenate(parts)
 
-    with alive(), replaced(Robot, "evaluate", elsewhere), suppress(EnoughSeen):
+    with patch.object(Robot, "evaluate", evaluated), suppress(EnoughSeen):
         yield
 
 

@@ -11,8 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from botschool.grading.declare.checks import Wrong
+from botschool.grading.declare.libraries import Refused
 from botschool.grading.declare.values import argument, pasted
 from botschool.grading.run.confined import (
+    NOTHING,
     MachineFault,
     fork_server,
     machine_fault,
@@ -21,7 +23,6 @@ from botschool.grading.run.confined import (
     start_child,
 )
 from botschool.grading.run.failures import Origin, SourceLines, explained, where_it_was
-from botschool.grading.run.pulse import STILL, StandsStill
 from botschool.grading.run.rewiring import Rewired
 from botschool.sandbox import Allowance, Child, ForkServer, Limits
 from botschool.sandbox.protocol import pack
@@ -47,12 +48,12 @@ class Student:
         tried: bool = True,
         origin: Origin | None = None,
         references: dict[str, Any] | None = None,
-        refused: tuple[str, ...] = (),
+        refused: Refused = NOTHING,
     ) -> None:
         """Prepare the submission. Raises Wrong if it is too large.
 
-        memory: MB of address space. server: a fork server; None starts one. refused: as in
-        Exercise.task.
+        memory: MB of address space. server: a fork server; None starts one. refused: what the
+        submission's process does not have.
         origin: where the lines of the file come from, if it is made of parts of another one.
         references: as in sandbox.Child, functions that replace the submission's own.
         tried: whether a fault that may be the machine's has happened before; then a second one
@@ -246,14 +247,6 @@ class Student:
             raise Wrong(f"The program ended while {self.said} was running: {reason}.")
         self.answers += 1
         self._blame_the_machine_for_a_full_disk(answer)
-        if answer.get("error") == StandsStill.__name__:
-            self.stop()
-            self.hung.add(str(request["name"]))
-            where = self._source.shown(answer.get("file"), answer.get("line"))
-            raise Wrong(
-                f"{self.said} stands still: for {STILL:g} s it evaluated nothing, made no step and "
-                f"computed no gradient. Does a loop never end?{where}"
-            )
         if answer.get("error") == "MemoryError":
             self.hung.add(str(request["name"]))
         if "error" in answer:
