@@ -115,8 +115,10 @@ def _say_if_here(module: str) -> None:
         spec = importlib.util.find_spec(module.partition(".")[0])
     except (ImportError, ValueError):
         return
-    places = [] if spec is None else [spec.origin, *(spec.submodule_search_locations or ())]
-    for place in filter(None, places):
+    if spec is None:
+        return
+    files = [spec.origin] if spec.has_location else []  # Python's own may have none
+    for place in filter(None, [*files, *(spec.submodule_search_locations or ())]):
         if Path(place).parent.resolve() == Path.cwd().resolve():
             print(f"{module} is taken from the present folder: {place}", file=sys.stderr)
             return

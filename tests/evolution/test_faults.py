@@ -262,3 +262,9 @@ def test_a_module_in_the_present_folder_is_named(tmp_path):
             [f"{module} is taken from the present folder"] if place else []
         )
         assert all(str(tmp_path / place) in line for line in said)
+
+
+def test_a_module_of_pythons_own_is_not_called_one_of_the_present_folder(refused, tmp_path):
+    for module in ("os", "sys", "zipimport"):  # frozen, built in, both
+        said = refused("es", "-f", write_experiment(tmp_path / module, f"{module}:system"), "-s", 1)
+        assert "present folder" not in said
