@@ -235,3 +235,15 @@ class Picture(Tiny):
 
 
 gymnasium.register("Picture-v0", Picture, max_episode_steps=12)
+
+
+class Throttle(Tiny):
+    """Is pushed by 0 to 100 percent; 50 do not push."""
+
+    action_space = spaces.Box(0, 100, (1,), np.float32)
+
+    def step(self, action):
+        return super().step((action - 50) / 125)
+
+
+gymnasium.register("Throttle-v0", Throttle, max_episode_steps=12)

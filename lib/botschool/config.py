@@ -216,6 +216,8 @@ def _experiment(sections: dict[str, dict[str, Entry]], path: str | PathLike[str]
     if sections.get(ENV):
         notes += _take_options(exp, sections[ENV], path)
     policy = _build(PolicyConfig, "POLICY", sections.get("POLICY", {}), path, notes)
+    if "pepisodes" not in sections.get("POLICY", {}):
+        policy.pepisodes = _post_episodes(exp)
     algo = _build(ALGORITHMS[exp.algo].config, "ALGO", sections.get("ALGO", {}), path, notes)
     arena = _arena(exp, sections.get(ARENA), path)
     lines = {key: entry.line for entries in sections.values() for key, entry in entries.items()}
@@ -224,6 +226,13 @@ def _experiment(sections: dict[str, dict[str, Entry]], path: str | PathLike[str]
     policy, note = one_layer(policy)
     told = (*notes, *note)
     return Experiment(exp, policy, algo, arena, Path(path), told, sections.get(TUNE, {}))
+
+
+def _post_episodes(exp: Exp) -> int:
+    """Return the episodes of a post-evaluation where a file does not tell them."""
+    if ALGORITHMS[exp.algo].competitive:
+        return 1  # fitness is the mean over all opponents; only -p and tournaments use it
+    return 20 if exp.environment in NATIVE and not exp.wrappers else 5
 
 
 def _take_options(exp: Exp, entries: dict[str, Entry], path: str | PathLike[str]) -> list[str]:

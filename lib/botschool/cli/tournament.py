@@ -124,13 +124,16 @@ def post_evaluate(
 ) -> None:
     """Show a robot, random or from a file; or let the populations of a folder meet."""
     from botschool.analysis import coevolution
+    from botschool.evolution import checkpoint
     from botschool.render.watch import PairEpisodes, PostEvaluation, read_genotype
 
     if genotype is None:
         watching.show(PostEvaluation(experiment, seed))
     elif not experiment.competitive or coevolution.names_file(genotype):
         path = own_file(genotype, "genotypes")
-        watching.show(PostEvaluation(experiment, seed, read_genotype(path), path.name))
+        robot = PostEvaluation(experiment, seed, read_genotype(path), path.name)
+        checkpoint.check_scaling(path, robot.policy)
+        watching.show(robot)
     else:
         folder = own_run(folder, experiment, seed)
         request = coevolution.parse(genotype, folder)

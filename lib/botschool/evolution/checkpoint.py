@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import tempfile
 from pathlib import Path
 from typing import Any, Protocol
@@ -24,6 +25,7 @@ class Resumable(Protocol):
     experiment: Experiment
     seed: int
     problem: Problem
+    policy: Any
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
         """Raise KeyError, ValueError, IndexError or TypeError for the state of another run."""
@@ -34,7 +36,7 @@ class Resumable(Protocol):
 
 def save(path: Path, experiment: Experiment, seed: int, state: dict[str, np.ndarray]) -> None:
     """Write a checkpoint atomically; state is arrays only."""
-    header = {"format": FORMAT, "seed": seed, "experiment": to_dict(experiment)}
+    header = {"format": FORMAT, "seed": seed, "experiment": to_dict(experiment), "scaled": True}
     save_npz(path, {"botschool": np.array(json.dumps(header)), **state})
 
 
@@ -96,6 +98,22 @@ def header(path: Path) -> dict[str, Any]:
     return found
 
 
+def check_scaling(genotype: Path, policy: Any) -> None:
+    """Raise BotschoolError for a robot whose run took outputs as they were, where they are scaled
+    now. The checkpoint beside the genotype's file tells it.
+    """
+    name = re.fullmatch(r"bestg?S([0-9]+)(G[0-9]+)?\.npy", genotype.name, re.ASCII)
+    if not policy.scales or name is None:
+        return
+    path = RunFiles(genotype.parent, int(name[1])).checkpoint
+    if path.exists() and not header(path).get("scaled"):
+        raise BotschoolError(
+            f"{genotype} is of a version of botschool that did not scale outputs to the limits of "
+            "the actions: add wrappers = ClipAction under [EXP], by which they are taken as they "
+            "were."
+        )
+
+
 def post_episodes(folder: Path, seed: int) -> int:
     """Return the episodes of a post-evaluation of a run; 0 if its checkpoint does not tell, or
     if two sides evolved, whose fitness is the mean over all opponents.
@@ -120,6 +138,11 @@ def resume(path: Path, run: Resumable) -> None:
             f"{path} does not fit this run (the environment has changed, or parts are "
             "missing): restore it from a copy, or use --force to start anew."
         ) from None
+    if run.policy.scales and not header(path).get("scaled"):
+        raise BotschoolError(
+            f"{path} was written by a version of botschool that did not scale outputs to the "
+            "limits of the actions: use that version, or --force to start anew."
+        )
     if run.problem.native and not run.reproduces():  # others may be slow, or never repeat
         raise BotschoolError(
             f"{path} was written by a version of botschool that evaluates robots differently (its "

@@ -25,7 +25,7 @@ from botschool.evolution.limit import Limit
 from botschool.evolution.record import Record, RunFiles
 from botschool.output import cannot_write, save_npy
 from botschool.problems import Interrupted, Problem
-from botschool.problems.base import say_unrepeatable
+from botschool.problems.base import say, say_unrepeatable
 from botschool.terminal import readable
 
 EVENT_SECONDS = 10
@@ -93,6 +93,8 @@ class Run:
         self.problem = problem or problems.of(experiment)
         self.check()
         self.policy = self.problem.policy(experiment.policy)
+        if self.policy.unreached:
+            say(self.policy.unreached)
         self.report: Callable[[Run], None] = lambda run: None
         self._open: Unsettled | None = None
         self.begin()

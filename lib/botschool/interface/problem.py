@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 from botschool import problems
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
+from botschool.evolution import checkpoint
 from botschool.evolution.evaluate import means
 from botschool.interface.sources import Source, experiment_of, in_python_words, usable
 from botschool.problems import Episodes
@@ -124,6 +125,10 @@ class Problem:
                 "problems` lists those that have quantities."
             )
         return self._problem.quantities()
+
+    def check(self, file: Path) -> None:
+        """Raise BotschoolError if this version evaluates the robot in a file differently."""
+        checkpoint.check_scaling(file, self._policy)
 
     def _split(self, genotype: ArrayLike) -> tuple[np.ndarray, np.ndarray | None]:
         parameters, vectors = self._policy.split(np.asarray(genotype))

@@ -90,6 +90,9 @@ class Run:
         """
         from botschool.render.watch import read_genotype
 
+        if self._experiment is not None:
+            with in_python_words():
+                self.problem.check(self._files.bestg)
         return read_genotype(self._files.bestg)
 
     @cached_property

@@ -83,7 +83,12 @@ class _Evaluation:
     nrobots: int = hyper(1, "robots in the environment, one network each", low=1, high=1000)
     heterogeneous: int = hyper(0, "each robot has parameters of its own", choices=NO_YES)
     episodes: int = hyper(1, "episodes a candidate's fitness averages", low=1, high=1000000)
-    pepisodes: int = hyper(1, "episodes of a post-evaluation", low=1, high=1000000)
+    pepisodes: int = hyper(
+        20,
+        "episodes of a post-evaluation (5 by default in Python, 1 for two sides)",
+        low=1,
+        high=1000000,
+    )
     maxsteps: int = hyper(1000, "steps after which an episode is cut", low=1, high=100000000)
     pmaxsteps: int = hyper(
         0, "the same for post-evaluations (0 = as maxsteps)", low=0, high=100000000

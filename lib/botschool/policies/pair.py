@@ -44,6 +44,16 @@ class Pair:
         return 2 * self.nparameters
 
     @property
+    def scales(self) -> bool:
+        """Return whether a side's outputs are scaled to the limits of its actions."""
+        return any(side.scales for side in self.sides)
+
+    @property
+    def unreached(self) -> str:
+        """Return a note about actions that outputs do not reach, or hardly; often ""."""
+        return self.sides[0].unreached or self.sides[1].unreached
+
+    @property
     def neurons(self) -> tuple[list[int], list[int]]:
         """Return the inputs and outputs of each network."""
         inputs, outputs = zip(*(side.neurons for side in self.sides), strict=True)

@@ -73,6 +73,17 @@ class Interface:
     """
     image: Image | None = None
     """Image format of the observation, if it is one."""
+    reach: tuple[tuple[float, float], ...] = ()
+    """Smallest and largest action of each actuator; () means `low` and `high` for all."""
+    scaled: bool = False
+    """Whether outputs with limits are scaled to `reach`; otherwise they are taken as they are."""
+
+    @property
+    def limits(self) -> np.ndarray:
+        """Return smallest and largest action of each actuator, (actuators, 2), or infinity."""
+        low = -np.inf if self.low is None else self.low
+        high = np.inf if self.high is None else self.high
+        return np.array(self.reach or [(low, high)] * self.outputs)
 
 
 class Policy:
@@ -100,6 +111,9 @@ class Policy:
             )
         self.interface = interface
         self.config = config
+        self._scale = _scaling(interface, config)
+        self.unreached = _unreached(problem, interface, config)
+        """A note about actions that the outputs do not reach, or hardly; often ""."""
         self._image = interface.image if config.architecture == CONVOLUTIONAL else None
         if config.architecture == CONVOLUTIONAL and self._image is None:
             raise BotschoolError(
@@ -137,6 +151,11 @@ class Policy:
             return {}
         lists = {name: numbers(getattr(self.config, name)) for name in CONVOLUTIONS}
         return {"image": self._image.planes, **lists}
+
+    @property
+    def scales(self) -> bool:
+        """Return whether outputs are scaled to the limits of the actions."""
+        return self._scale is not None
 
     @property
     def neurons(self) -> tuple[int, int]:
@@ -209,4 +228,52 @@ class Policy:
             return np.array([np.argmax(group) for group in np.split(action, edges)])
         if self.interface.discrete:
             return int(np.argmax(action))
+        if self._scale is not None:
+            action = self._scale[0] * action + self._scale[1]
         return action.astype(np.float32)
+
+
+OUTPUTS = {1: (0.0, 1.0), 2: (-1.0, 1.0), 4: (-1.0, 1.0)}
+"""Smallest and largest output by `out_type`; the others have no limits."""
+LEAST_SHARE = 0.1
+"""Share of the actions near 0 below which a note says that outputs without limits begin there."""
+
+
+def _scaling(interface: Interface, config: PolicyConfig) -> tuple[np.ndarray, np.ndarray] | None:
+    """Return factor and shift of each output, by which outputs with limits reach those of the
+    actions; None if nothing changes (docs/specification.md, "Outputs").
+    """
+    if not interface.scaled or interface.discrete or config.nbins > 1:
+        return None
+    if config.out_type not in OUTPUTS:
+        return None
+    least, most = OUTPUTS[config.out_type]
+    limits = interface.limits
+    limits[~np.isfinite(limits).all(axis=1)] = least, most
+    factor = (limits[:, 1] - limits[:, 0]) / (most - least)
+    shift = limits[:, 0] - factor * least
+    return None if (factor == 1).all() and not shift.any() else (factor, shift)
+
+
+def _unreached(problem: str, interface: Interface, config: PolicyConfig) -> str:
+    limited = config.out_type in OUTPUTS
+    if interface.discrete or config.nbins > 1 or (limited and interface.scaled):
+        return ""
+    least, most = OUTPUTS.get(config.out_type, (-1.0, 1.0))
+    for low, high in interface.limits.tolist():
+        if not 0 < high - low < np.inf:
+            continue
+        share = max(0.0, min(high, most) - max(low, least)) / (high - low)
+        actions = f"actions of {problem} go from {low:g} to {high:g}"
+        if limited and share < 1:
+            return (
+                f"{actions}, but outputs from {least:g} to {most:g} (out_type = "
+                f"{config.out_type}), and {problem} takes them as they are: out_type = 3 (linear) "
+                "reaches all."
+            )
+        if interface.scaled and share < LEAST_SHARE:
+            return (
+                f"{actions}, but outputs begin near 0 (out_type = {config.out_type}), from where "
+                "they hardly get there: out_type = 2 (tanh) is scaled to that range."
+            )
+    return ""

@@ -173,12 +173,16 @@ class Problem(ABC):
 
 
 @cache
+def say(sentence: str) -> None:
+    """Print a note on stderr, once in a program."""
+    if multiprocessing.parent_process() is None:
+        print(f"note: {sentence}", file=sys.stderr)
+
+
 def say_unrepeatable(name: str) -> None:
     """Print that an environment does not repeat, and why it matters."""
-    if multiprocessing.parent_process() is None:
-        print(
-            f"note: {name} does not repeat: an episode played again from the same seed is not the "
-            "same, so the same command, -w, --resume and -p give other results: let reset set "
-            "everything anew, and draw random numbers from self.np_random only",
-            file=sys.stderr,
-        )
+    say(
+        f"{name} does not repeat: an episode played again from the same seed is not the "
+        "same, so the same command, -w, --resume and -p give other results: let reset set "
+        "everything anew, and draw random numbers from self.np_random only"
+    )

@@ -12,7 +12,7 @@ from botschool import wrappers
 from botschool.errors import BotschoolError
 from botschool.inifile import shown
 from botschool.policies.policy import Policy
-from botschool.problems.making import make_env
+from botschool.problems.making import is_ours, make_env
 from botschool.problems.python import START, STEP, PythonProblem, Wrong
 from botschool.problems.spaces import Flattener, Unsupported, fitted, interface
 from botschool.problems.transition import Transition
@@ -43,7 +43,11 @@ class GymProblem(PythonProblem):
         try:
             self._flattener = Flattener(self._env.observation_space, name)
             self.interface = interface(
-                self._flattener.size, self._env.action_space, body, self._flattener.image
+                self._flattener.size,
+                self._env.action_space,
+                body,
+                self._flattener.image,
+                scaled=not is_ours(name),
             )
         except Unsupported as error:
             raise BotschoolError(f"{name} cannot be evolved: its {error}.") from None

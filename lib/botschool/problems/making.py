@@ -17,7 +17,7 @@ import gymnasium
 from botschool.errors import BotschoolError, said
 from botschool.paths import look_here
 from botschool.problems import faces  # noqa: F401  (registers our own)
-from botschool.problems.native import NATIVE, gym_id
+from botschool.problems.native import NATIVE, gym_id, own_name
 from botschool.terminal import has_display
 from botschool.wrappers import Wrapper
 
@@ -46,6 +46,13 @@ def make_env(name: str, wrappers: Sequence[Wrapper] = (), /, **options) -> gymna
     for wrapper in wrappers:
         env = wrapper.around(env, name)
     return env
+
+
+def is_ours(name: str) -> bool:
+    """Return whether botschool has the environment itself, native or in Python."""
+    spec = gymnasium.registry.get(_registered(name).rpartition(":")[2])
+    entry = "" if spec is None else str(spec.entry_point)
+    return own_name(name) in NATIVE or name in PACKAGES or entry.startswith("botschool.")
 
 
 def skipping(name: str, wrappers: Sequence[Wrapper]) -> dict[str, int]:

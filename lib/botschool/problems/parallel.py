@@ -71,7 +71,7 @@ class ParallelProblem(PythonProblem):
         acted = self._call(self._env.action_space, f"action_space({agent!r})", agent)
         try:
             flattener = Flattener(seen, f"{self.name}, {agent}")
-            self.interfaces.append(interface(flattener.size, acted, 0, flattener.image))
+            self.interfaces.append(interface(flattener.size, acted, 0, flattener.image, True))
         except Unsupported as error:
             raise BotschoolError(f"{self.name} cannot be evolved: of {agent}, {error}.") from None
         self._flatteners[agent] = flattener

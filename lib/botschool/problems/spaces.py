@@ -8,16 +8,14 @@ other axes than it can handle, with choices counted from 0. The rules are in doc
 
 from __future__ import annotations
 
-import multiprocessing
-import sys
 from collections.abc import Container, Iterator
-from functools import cache
 from typing import Any
 
 import numpy as np
 from gymnasium import spaces
 
 from botschool.policies.policy import Image, Interface
+from botschool.problems.base import say
 
 CHOICES = (spaces.Discrete, spaces.MultiDiscrete, spaces.MultiBinary)
 
@@ -144,7 +142,8 @@ def _parts(space: spaces.Space, name: str) -> list[tuple[tuple, spaces.Space]]:
         raise Unsupported(f"observations are {_short(space)}, but {OBSERVED}")
     for path, leaf in leaves:
         if not _numbers(leaf):
-            _say_left_out(name, ".".join(map(str, path)), type(leaf).__name__)
+            part, kind = ".".join(map(str, path)), type(leaf).__name__
+            say(f"{name}: '{part}' of its observations is left out ({kind}, no numbers)")
     return parts
 
 
@@ -221,19 +220,17 @@ def _short(space: spaces.Space) -> str:
     return f"a {type(space).__name__} space"
 
 
-@cache
-def _say_left_out(name: str, part: str, kind: str) -> None:
-    if multiprocessing.parent_process() is None:
-        print(
-            f"note: {name}: '{part}' of its observations is left out ({kind}, no numbers)",
-            file=sys.stderr,
-        )
-
-
 def interface(
-    size: int, acted: spaces.Space, morphology: int, image: Image | None = None
+    size: int,
+    acted: spaces.Space,
+    morphology: int,
+    image: Image | None = None,
+    scaled: bool = False,
 ) -> Interface:
-    """Return the interface for observations of that size and these actions. Raises Unsupported."""
+    """Return the interface for observations of that size and these actions. Raises Unsupported.
+
+    scaled: whether outputs with limits are scaled to those of the actions.
+    """
     seen: dict[str, Any] = {"morphology": morphology, "image": image}
     if isinstance(acted, spaces.Discrete):
         return Interface(size, int(acted.n), discrete=True, **seen)
@@ -249,12 +246,28 @@ def interface(
         discrete=False,
         low=float(low[0]) if common else None,
         high=float(high[0]) if common else None,
+        reach=_reach(acted),
+        scaled=scaled,
         **seen,
     )
 
 
+def _reach(space: spaces.Box) -> tuple[tuple[float, float], ...]:
+    """Return the smallest and the largest action of each actuator, infinite without limits.
+
+    Whole numbers get half a step more on both sides, so that all have the same share.
+    """
+    low, high = (np.float64(edge).ravel() for edge in (space.low, space.high))
+    half, largest = 0.0, LARGEST
+    if space.dtype.kind != "f":
+        half, largest = 0.5, float(2**31 - 1)  # ClipAction sets the largest whole number
+    far = (low <= -largest) | (high >= largest)
+    low, high = np.where(far, [[-np.inf], [np.inf]], [low - half, high + half])
+    return tuple(zip(low.tolist(), high.tolist(), strict=True))
+
+
 def plain_actions(space: spaces.Space) -> spaces.Space:
-    """Return the space in which a learner acts; `performed` translates its actions.
+    """Return the space in which a learner acts; `fitted` translates its actions.
 
     Where a Box has no limit, this one has the largest number. Raises Unsupported.
     """
@@ -274,20 +287,15 @@ def has_limits(space: spaces.Space) -> bool:
     return bool(within.all()) and space.is_bounded()
 
 
-def performed(action: Any, space: spaces.Space) -> Any:
-    """Return a learner's action as one of the environment's space; whole numbers are rounded."""
-    if isinstance(space, spaces.Box) and space.dtype.kind != "f":
-        action = np.rint(action)
-    return fitted(action, space)
-
-
 def _check_actions(space: spaces.Space) -> None:
     if not isinstance(space, spaces.Box) or space.dtype.kind not in "fiub":
         raise Unsupported(f"actions are {_short(space)}, but {ACTED}")
 
 
 def fitted(action: Any, space: spaces.Space) -> Any:
-    """Return an action in the space: choices start at its first value, numbers are clipped."""
+    """Return an action in the space: choices start at its first value, numbers are clipped, and
+    whole ones rounded.
+    """
     if isinstance(space, spaces.Discrete):
         return space.start + action
     if isinstance(space, (spaces.MultiDiscrete, spaces.MultiBinary)):
@@ -297,5 +305,7 @@ def fitted(action: Any, space: spaces.Space) -> Any:
         action = np.nan_to_num(action)
     if len(space.shape) != 1:
         action = action.reshape(space.shape)
+    if space.dtype.kind != "f":
+        action = np.rint(action)
     limited = np.minimum(np.maximum(action, space.low), space.high)  # a third of np.clip's time
     return limited.astype(space.dtype, copy=False)

@@ -11,7 +11,7 @@ from gymnasium import spaces
 from botschool.errors import BotschoolError, said
 from botschool.inifile import shown
 from botschool.problems.making import make_env, skipping
-from botschool.problems.spaces import PlainObservations, Unsupported, performed, plain_actions
+from botschool.problems.spaces import PlainObservations, Unsupported, fitted, plain_actions
 from botschool.wrappers import parse
 
 LONGEST_EPISODE = 1000
@@ -76,7 +76,7 @@ class Guard(gymnasium.Wrapper):
                 f"The agent's action in {self.name} is not a finite number: its training diverged, "
                 "so lower learning_rate, or take the other model of its folder."
             )
-        given = self._call(self.env.step, performed(action, self._acted))
+        given = self._call(self.env.step, fitted(action, self._acted))
         if not isinstance(given, tuple) or len(given) != 5 or not _is_info(given[4]):
             raise self._broken(
                 "step does not return (observation, reward, terminated, truncated, info)"
