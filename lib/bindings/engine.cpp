@@ -85,8 +85,9 @@ void check_genotypes(const Engine& engine, std::size_t length, std::size_t offse
                                 std::to_string(needed) + " are needed.");
 }
 
+/// normalisation: a vector for all candidates, or a row for each.
 nb::tuple evaluate(const Engine& engine, Matrix<const double> genotypes,
-                   std::optional<Vector<const double>> normalisation,
+                   std::optional<Array<const double>> normalisation,
                    Matrix<const std::int32_t> candidates, Vector<const std::uint64_t> seeds,
                    Vector<const std::uint32_t> episodes,
                    std::optional<Vector<const std::uint8_t>> collect, int limit, int threads,
@@ -101,7 +102,10 @@ nb::tuple evaluate(const Engine& engine, Matrix<const double> genotypes,
   expect_size(seeds, count, "the vector of seeds");
   expect_size(episodes, count, "the vector of episodes");
   if (collect) expect_size(*collect, count, "the vector of collecting episodes");
-  if (normalisation) expect_size(*normalisation, 2 * inputs, "the normalisation vector");
+  const bool own = normalisation && normalisation->ndim() == 2;
+  if (normalisation)
+    expect_size(*normalisation, 2 * inputs * (own ? genotypes.shape(0) : 1),
+                "the normalisation vector");
   for (std::size_t i = 0; i < rows * count; ++i) {
     const std::int32_t c = candidates.data()[i];
     if (c < 0 || std::size_t(c) >= genotypes.shape(0))
@@ -129,7 +133,8 @@ nb::tuple evaluate(const Engine& engine, Matrix<const double> genotypes,
                   setting,
                   fitness.data(),
                   steps.data(),
-                  moments.data()};
+                  moments.data(),
+                  own ? std::size_t(2 * inputs) : 0};
   {
     nb::gil_scoped_release release;
     engine.evaluate(jobs, threads);

@@ -29,6 +29,7 @@ struct Jobs {
   double* fitness;
   std::int32_t* steps;
   double* moments;
+  std::size_t normalisation_stride = 0;  ///< between the vectors of candidates; 0: all have the same
 };
 
 /// Hands out the numbers of jobs to whoever asks; -1 when none is left.

@@ -191,7 +191,7 @@ class Rollout {
   void load(int lane, int robot, std::int32_t candidate) {
     if (candidate != candidate_[robot][lane]) {
       candidate_[robot][lane] = candidate;
-      brain(robot).load(lane, genotype(robot, candidate), jobs_.normalisation);
+      brain(robot).load(lane, genotype(robot, candidate), normalisation(candidate));
     }
     brain(robot).clear(lane);
   }
@@ -262,6 +262,11 @@ class Rollout {
 
   const double* genotype(int robot, std::int32_t candidate) const {
     return jobs_.genotypes + jobs_.genotype_stride * candidate + robot * jobs_.robot_offset;
+  }
+
+  const double* normalisation(std::int32_t candidate) const {
+    return jobs_.normalisation ? jobs_.normalisation + jobs_.normalisation_stride * candidate
+                               : nullptr;
   }
 
   /// The body's parameters, which follow a candidate's network.
