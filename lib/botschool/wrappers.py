@@ -13,6 +13,8 @@ import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from botschool.errors import BotschoolError, said
 from botschool.inifile import nearest, shown
 from botschool.paths import import_here
@@ -114,6 +116,11 @@ def keywords(text: str) -> dict[str, Any]:
             "with numbers, words in quotes, lists or tuples, as in num_good=1, speeds=(2, 3)."
         ) from None
     return found
+
+
+def bare(value: Any) -> Any:
+    """Return a number of numpy as one of Python; other values as they are."""
+    return value.item() if isinstance(value, np.generic) else value
 
 
 def spelled(options: dict[str, str]) -> str:

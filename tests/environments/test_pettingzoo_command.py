@@ -84,7 +84,7 @@ def test_generations_meet(es, command, tmp_path):
         ("duels:Duel", "fault='nobody'", "no agent takes part"),
         ("duels:Duel", "fault='raises'", "step 1 of episode 0 of seed 3 (the floor is wet)"),
         ("duels:Duel", "fault='nan'", "a reward of nan at step 1 in episode 0 of seed 3"),
-        ("duels:Duel", "fault='unpaid'", "a reward of None at step 1"),
+        ("duels:Duel", "fault='unpaid'", "a reward of None (NoneType"),
         ("duels:Duel", "fault='blind'", "no observation of cat"),
         ("duels:Seedless", "", ["reset", "unexpected keyword argument 'seed'"]),
         ("ErPredprey", "max_steps=5", "ErPredprey takes no options"),

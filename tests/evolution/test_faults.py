@@ -190,8 +190,8 @@ def test_videos_that_cannot_be_written(refused, tmp_path):
 BROKEN = {
     "nan": ["a reward of nan at step 1"],
     "inf": ["an observation with NaN or infinity"],
-    "none": ["a reward of None at step 1"],
-    "vector": ["a reward of [0. 0.] at step 1"],
+    "none": ["a reward of None (NoneType, not a number) at step 1"],
+    "vector": ["a reward of [0. 0.] (ndarray, not a number) at step 1"],
     "shape": ["an observation [0. 0. 0.]", "observation_space"],
     "text": ["an observation left", "observation_space"],
     "old": ["step 1", "expected 5, got 4", "mend"],

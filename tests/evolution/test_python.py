@@ -1,6 +1,8 @@
 """`import botschool`: what programs get is what the commands give, bit for bit."""
 
+import copy
 import os
+import pickle
 import shutil
 import signal
 import subprocess
@@ -17,6 +19,7 @@ from botschool.problems import Episodes
 from botschool.terminal import readable
 from running import call, environment_of_command, same, write_experiment
 
+PROBLEM = botschool.problem("CartPole-v1", hidden=3)
 POLE = {"environment": "CartPole-v1", "algo": "SSS", "nhiddens": 3, "maxmsteps": 0.02, "popsize": 6}
 
 
@@ -260,6 +263,32 @@ def test_evaluate_takes_saved_robots_with_their_scaling(runs):
     assert both[0] == run.play(3, seed=9).mean() != both[1]
 
 
+def test_numbers_of_numpy_count_as_numbers():
+    genotypes = [PROBLEM.initial(np.int64(1), np.uint8(i)) for i in range(2)]
+    given = PROBLEM.evaluate(genotypes, np.int64(3), np.int64(2), np.int64(1))
+    assert given[0].tolist() == PROBLEM.evaluate(genotypes, 3, 2)[0].tolist()
+
+
+@pytest.mark.parametrize("source", ["CartPole-v1", "tiny_envs:Tiny-v0"])
+@pytest.mark.parametrize("copied", [copy.deepcopy, lambda p: pickle.loads(pickle.dumps(p))])
+def test_a_problem_is_copied_and_sent_as_its_experiment(source, copied):
+    problem = botschool.problem(source, hidden=3, normalize=1, maxsteps=40)
+    again, genotype = copied(problem), problem.initial(5)
+    assert again.experiment == problem.experiment
+    assert again.evaluate(genotype) == problem.evaluate(genotype)
+
+
+@pytest.mark.parametrize("source", ["PlanarHopper-v5", "tiny_envs:Tiny-v0"])
+def test_robots_with_scaling_of_their_own_are_evaluated_together(source):
+    problem = botschool.problem(source, hidden=3, normalize=1, maxsteps=40)
+    inputs = problems.make(source).interface.observations
+    vectors = np.random.default_rng(1).uniform(0.5, 2, (9, 2 * inputs))
+    robots = [np.append(problem.initial(1, i), own) for i, own in enumerate(vectors)]
+    returns, steps = problem.evaluate(robots, np.arange(9), episodes=2)
+    alone = [problem.returns(g, seed, 2).mean() for seed, g in enumerate(robots)]
+    assert returns.tolist() == alone and len(set(alone)) > 1 and len(steps) == 9
+
+
 # --- errors
 
 
@@ -270,8 +299,8 @@ def test_evaluate_takes_saved_robots_with_their_scaling(runs):
         (lambda: botschool.evolve("CartPoll-v1"), "did you mean CartPole-v1"),
         (lambda: botschool.evolve("no_such.ini"), "no_such.ini"),
         (lambda: botschool.evolve(7), "not a int"),
-        (lambda: botschool.evolve(POLE, seed=-1), "-1 is no seed"),
-        (lambda: botschool.evolve(POLE, seed="one"), "'one' is no seed"),
+        (lambda: botschool.evolve(POLE, seed=-1), "seed is -1"),
+        (lambda: botschool.evolve(POLE, seed="one"), "seed is 'one'"),
         (lambda: botschool.evolve(POLE, seeds=[1, 1]), "different"),
         (lambda: botschool.evolve(POLE, workers=0), "workers is 0"),
         (lambda: botschool.evolve(POLE, seeds=3), "write seeds=range(10)"),
@@ -289,6 +318,19 @@ def test_evaluate_takes_saved_robots_with_their_scaling(runs):
         (lambda: botschool.problem(POLE).evaluate(np.zeros((2, 18)), [1, 2, 3]), "2 of them"),
         (lambda: botschool.problem(POLE).evaluate(np.zeros((2, 18)), -4), "seeds"),
         (lambda: botschool.problem(POLE).evaluate(np.zeros((2, 18)), episodes=0), "episodes is 0"),
+        (lambda: PROBLEM.evaluate(np.full(18, -np.inf)), "row 0"),
+        (lambda: PROBLEM.evaluate([["a"] * 18]), "an array of numbers"),
+        (lambda: PROBLEM.evaluate([[1, 2], [3]]), "an array of numbers"),
+        (lambda: PROBLEM.evaluate(np.zeros(18), seeds=2**64), "from 0 to 2^64 - 1"),
+        (lambda: PROBLEM.evaluate(np.zeros(18), seeds="1"), "seeds is '1'"),
+        (lambda: PROBLEM.evaluate(np.zeros(18), seeds=[[1, 2], [3]]), "seeds is [["),
+        (lambda: PROBLEM.evaluate(np.zeros(18), episodes=True), "episodes is True"),
+        (lambda: PROBLEM.initial(seed=-1), "seed is -1"),
+        (lambda: PROBLEM.initial(1, index=0.5), "index is 0.5"),
+        (lambda: PROBLEM.returns(["a"], 1), "an array of numbers"),
+        (lambda: PROBLEM.film(np.zeros(18), "x.gif", seed=-1), "seed is -1"),
+        (lambda: botschool.evolve(POLE, generations="3"), "generations is '3'"),
+        (lambda: botschool.train("CartPole-v1", seed=-1), "seed is -1"),
         (lambda: botschool.load("no/such/folder"), "there is no folder"),
         (lambda: botschool.train("CartPole-v1", algo="pppo"), "did you mean ppo"),
         (lambda: botschool.train("CartPole-v1", steps=100, learnin_rate=1), "learning_rate"),

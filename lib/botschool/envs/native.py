@@ -11,9 +11,11 @@ import numpy as np
 from gymnasium import spaces
 
 from botschool import config
-from botschool.arenas.plan import Plan
+from botschool.arenas.plan import PROBLEM, Plan
 from botschool.envs.simulation import RENDER_MODES, Simulation
 from botschool.errors import BotschoolError
+from botschool.problems.native import INFOS
+from botschool.wrappers import bare, spelled
 
 
 class NativeEnv(gymnasium.Env):
@@ -29,7 +31,8 @@ class NativeEnv(gymnasium.Env):
     means the problem's own. morphology: parameters of an evolved body, None for zeros. arena: for
     ErArena, a botschool.arena.Plan with one robot, or an experiment file with a section [ARENA];
     None means the default plan. reward, ends: expressions in place of the problem's own reward and
-    end of episodes. Raises BotschoolError.
+    end of episodes. Others are options of the problem, as files take them: slope=0.1. Raises
+    BotschoolError.
     """
 
     metadata: ClassVar[dict] = {"render_modes": RENDER_MODES}
@@ -45,8 +48,14 @@ class NativeEnv(gymnasium.Env):
         options: str = "",
         reward: str = "",
         ends: str = "",
+        **named: Any,
     ) -> None:
         self.render_mode = render_mode
+        if noise is not None and "plan" not in INFOS[problem] and problem != PROBLEM:
+            named["noise"], noise = noise, None
+        if named:
+            written = {name: repr(bare(value)) for name, value in named.items()}
+            options = ", ".join(filter(None, [options, spelled(written)]))
         plan = arena if isinstance(arena, Plan) or arena is None else config.load(arena).plan
         if plan is None and arena is not None:
             raise BotschoolError(f"{arena} has no section [ARENA].")

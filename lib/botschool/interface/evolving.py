@@ -20,7 +20,7 @@ from botschool.evolution.run import Options
 from botschool.evolution.run import Run as Evolving
 from botschool.interface.runs import Run, Runs
 from botschool.interface.showing import Folder, bars, interruptible
-from botschool.interface.sources import Source, experiment_of, in_python_words, usable
+from botschool.interface.sources import Source, experiment_of, in_python_words, usable, whole
 
 
 def evolve(
@@ -57,6 +57,8 @@ def evolve(
                 "resume=True continues the runs of a folder: name the folder, and leave out force."
             )
         made = experiment_of(experiment, hyperparameters, algorithm)
+        steps = steps if steps is None else whole("steps", steps)
+        generations = generations if generations is None else whole("generations", generations)
         if steps is not None and steps > 1e6 * getattr(made.algo, "maxmsteps", np.inf):
             raise BotschoolError(
                 f"steps = {steps:,} is beyond the end of the run, maxmsteps = "
@@ -121,11 +123,7 @@ def _seeds(seeds: Iterable[int]) -> list[int]:
     """Return the seeds as a list. Raises BotschoolError."""
     if not isinstance(seeds, Iterable):
         raise BotschoolError(f"seeds is {seeds!r:.40}: write seeds=range(10) for ten, or seed=3.")
-    chosen = list(seeds)
-    for each in chosen:
-        whole = isinstance(each, (int, np.integer)) and not isinstance(each, bool)
-        if not whole or not 0 <= each <= 2**62:
-            raise BotschoolError(f"{each!r:.40} is no seed: give a whole number from 0 to 2^62.")
+    chosen = [whole("seed", seed, 0) for seed in seeds]
     if not chosen or len(set(chosen)) < len(chosen):
         raise BotschoolError("seeds must be different numbers, at least one, as in range(10).")
-    return [int(each) for each in chosen]
+    return chosen

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import math
 import os
-from contextlib import redirect_stdout
+from contextlib import redirect_stdout, suppress
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +17,15 @@ from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.evolution import checkpoint
 from botschool.evolution.evaluate import means
-from botschool.interface.sources import Source, experiment_of, in_python_words, usable
+from botschool.interface.sources import (
+    Source,
+    experiment_of,
+    in_python_words,
+    numbers,
+    seeded,
+    usable,
+    whole,
+)
 from botschool.problems import Episodes
 
 
@@ -65,11 +73,15 @@ class Problem:
                 f"{self.name} has two sides, so a genotype alone has no return: use evolve."
             )
 
+    def __reduce__(self) -> tuple:
+        """Pickle and copy the problem as its experiment."""
+        return Problem, (self.experiment,)
+
     def initial(self, seed: int = 1, index: int = 0) -> np.ndarray:
         """Return a random genotype to start from, float64, shape (parameters,); each (seed, index)
         gives another.
         """
-        return self._policy.initial(seed, index)
+        return self._policy.initial(seeded(seed), whole("index", index, 0, 2**32 - 1))
 
     def evaluate(
         self,
@@ -86,7 +98,7 @@ class Problem:
         workers: cores to use; by default all for a native problem, and 1 for one in Python. Without
         the GIL for native problems. Raises BotschoolError.
         """
-        x = np.ascontiguousarray(genotypes, dtype=np.float64)
+        x = np.ascontiguousarray(numbers("genotypes", genotypes), dtype=np.float64)
         if x.ndim == 1:
             x = x[None]
         if x.ndim != 2 or x.shape[1] not in (self.parameters, self._saved):
@@ -94,15 +106,17 @@ class Problem:
                 f"genotypes has shape {np.shape(genotypes)}, but {self.name} needs "
                 f"(n, {self.parameters}): a row of parameters for each."
             )
-        if x.size and not math.isfinite(np.maximum.reduce(x, axis=None)):  # a sum takes longer
+        ends = (np.maximum.reduce(x, axis=None), np.minimum.reduce(x, axis=None)) if x.size else ()
+        if not all(map(math.isfinite, ends)):  # a sum takes longer
             row = int((~np.isfinite(x)).any(axis=1).argmax())
             raise BotschoolError(f"genotypes holds a value in row {row} that is no finite number.")
+        vectors = None
         if x.shape[1] > self.parameters:  # each with vectors of its own
-            pairs = zip(x, np.broadcast_to(seeds, len(x)), strict=True)
-            each = [self._outcome(*self._split(g), seed, episodes, workers) for g, seed in pairs]
-        else:
-            each = [self._outcome(x, None, seeds, episodes, workers)]
-        returns, steps = each[0] if len(each) == 1 else map(np.concatenate, zip(*each, strict=True))
+            vectors = np.ascontiguousarray(x[:, self.parameters :])
+            x = np.ascontiguousarray(x[:, : self.parameters])
+            if (vectors[:, vectors.shape[1] // 2 :] <= 0).any():
+                raise BotschoolError("The genotypes' standard deviations must be above 0.")
+        returns, steps = self._outcome(x, vectors, seeds, episodes, workers)
         if episodes > 1:
             steps = np.add.reduce(steps.reshape(-1, episodes), axis=1)
         return means(returns, episodes), steps.astype(np.int64)
@@ -131,22 +145,24 @@ class Problem:
         checkpoint.check_scaling(file, self._policy)
 
     def _split(self, genotype: ArrayLike) -> tuple[np.ndarray, np.ndarray | None]:
-        parameters, vectors = self._policy.split(np.asarray(genotype))
+        parameters, vectors = self._policy.split(numbers("genotype", genotype))
         return parameters[None], vectors
 
     def _outcome(self, x, normalisation, seeds, episodes, workers, longest=None):
         """Return the return and the steps of each episode, genotype by genotype."""
+        episodes = whole("episodes", episodes, 1, 2**32 - 1)
         batch = self._batches.get((len(x), episodes)) or self._batch(len(x), episodes)
-        seed = np.empty(len(batch[0]), np.uint64)
+        seed, chosen = np.empty(len(batch[0]), np.uint64), np.empty(0)
         if isinstance(seeds, int) and 0 <= seeds < 2**64:  # the usual case, in less time
             seed[:] = seeds
         else:
-            chosen = np.asarray(seeds)
+            with suppress(BotschoolError):
+                chosen = numbers("seeds", seeds)
             wrong = chosen.dtype.kind not in "iu" or chosen.size not in (1, len(x))
             if wrong or chosen.min() < 0:
                 raise BotschoolError(
-                    f"seeds is {seeds!r:.40}, but must be a whole number from 0 on, or {len(x)} "
-                    "of them, one for each genotype."
+                    f"seeds is {seeds!r:.40}, but must be a whole number from 0 to 2^64 - 1, or "
+                    f"{len(x)} of them, one for each genotype."
                 )
             seed.reshape(len(x), episodes)[:] = chosen.reshape(-1, 1)
         if workers is None:
@@ -165,10 +181,6 @@ class Problem:
 
     def _batch(self, n: int, episodes: int) -> tuple[np.ndarray, np.ndarray]:
         """Return rows and numbers of the episodes of n genotypes; the newest are kept."""
-        if isinstance(episodes, bool) or not isinstance(episodes, int) or episodes < 1:
-            raise BotschoolError(
-                f"episodes is {episodes!r:.40}, but must be a whole number above 0."
-            )
         if not n:
             raise BotschoolError("genotypes has no row: give at least one genotype.")
         if len(self._batches) > 20:
@@ -186,8 +198,9 @@ class Problem:
         from botschool.render.video import write_video
         from botschool.render.watch import PostEvaluation
 
+        seed, episodes = seeded(seed), whole("episodes", episodes)
         with in_python_words(), redirect_stdout(io.StringIO()):
-            robot = PostEvaluation(self.experiment, seed, np.asarray(genotype))
+            robot = PostEvaluation(self.experiment, seed, numbers("genotype", genotype))
             robot.episodes_seed = seed
             try:
                 write_video(Path(path), robot.frames(episodes, False), robot.problem.fps)

@@ -16,7 +16,7 @@ from botschool.errors import BotschoolError
 from botschool.evolution import fresh
 from botschool.evolution.record import RunFiles
 from botschool.interface.problem import Problem
-from botschool.interface.sources import in_python_words
+from botschool.interface.sources import in_python_words, seeded
 from botschool.output import check_output
 from botschool.seeds import NEW_EPISODES_SEED
 
@@ -120,8 +120,7 @@ class Run:
         """
         if self.experiment.competitive:
             raise BotschoolError("Two sides evolved here, so a robot alone cannot play.")
-        _check_episodes(episodes)
-        place = self.seed + NEW_EPISODES_SEED if seed is None else seed
+        place = self.seed + NEW_EPISODES_SEED if seed is None else seeded(seed)
         return self.problem.returns(self.best, place, episodes)
 
     def film(self, path: str | PathLike[str], episodes: int = 1, seed: int | None = None) -> Path:
@@ -129,8 +128,7 @@ class Run:
 
         Return its path. Raises BotschoolError.
         """
-        _check_episodes(episodes)
-        place = self.seed + NEW_EPISODES_SEED if seed is None else seed
+        place = self.seed + NEW_EPISODES_SEED if seed is None else seeded(seed)
         return self.problem.film(self.best, path, place, episodes)
 
     def page(self, path: str | PathLike[str] | None = None) -> Path:
@@ -255,8 +253,3 @@ class Runs(Sequence[Run]):
         if len(self) > 1 and self[0]._experiment is not None:
             lines.append(f"mean of the runs: {fresh.told(self.fitness)} (95 % interval)")
         return "\n  ".join(lines)
-
-
-def _check_episodes(episodes: int) -> None:
-    if isinstance(episodes, bool) or not isinstance(episodes, (int, np.integer)) or episodes < 1:
-        raise BotschoolError(f"episodes is {episodes!r:.40}, but must be a whole number above 0.")

@@ -18,9 +18,10 @@ from botschool.config import Exp, Experiment, from_dict, load, to_dict
 from botschool.errors import BotschoolError
 from botschool.evolution.algorithm import ALGORITHMS, RunConfig
 from botschool.evolution.algorithms import own
+from botschool.inifile import shown
 from botschool.paths import own_file
 from botschool.policies.hyperparameters import PolicyConfig
-from botschool.wrappers import spelled
+from botschool.wrappers import bare, spelled
 
 Source: TypeAlias = str | PathLike[str] | dict[str, Any] | Experiment
 """An experiment file, a problem's name, a dict of hyperparameters, or an Experiment."""
@@ -84,7 +85,7 @@ def experiment_of(
         run = {f.name for f in fields(RunConfig)}
         names = [key for key in given if _part(key) not in ("exp", "policy") and key not in run]
         arguments = {key: given.pop(key) for key in names}
-        parts["algo"] = {"options": spelled({k: repr(_bare(v)) for k, v in arguments.items()})}
+        parts["algo"] = {"options": spelled({k: repr(bare(v)) for k, v in arguments.items()})}
     for key, value in given.items():
         parts.setdefault(_part(key), {})[key] = _plain(value)
     if "algo" in given and before:  # keep what the new algorithm has, too
@@ -134,35 +135,59 @@ def _part(key: str) -> str:
     return SECTIONS[near[0]] if near else "algo"
 
 
-def _bare(value: Any) -> Any:
-    return value.item() if isinstance(value, np.generic) else value
-
-
 def _plain(value: Any) -> Any:
     """Return a value as experiment files have it."""
-    value = _bare(value)
+    value = bare(value)
     if isinstance(value, dict):
-        return spelled({key: repr(_bare(each)) for key, each in value.items()})
+        return spelled({key: repr(bare(each)) for key, each in value.items()})
     if isinstance(value, (list, tuple)):
-        return ", ".join(str(_bare(each)) for each in value)
+        return ", ".join(str(bare(each)) for each in value)
     return int(value) if isinstance(value, bool) else value
+
+
+def whole(name: str, value: Any, least: int = 1, most: int = 2**62) -> int:
+    """Return a whole number within limits, of Python or numpy. Raises BotschoolError."""
+    number = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+    if not number or not least <= value <= most:
+        power = {2**62: "2^62", 2**64 - 1: "2^64 - 1", 2**32 - 1: "2^32 - 1"}[most]
+        raise BotschoolError(
+            f"{name} is {value!r:.40}, but must be a whole number from {least} to {power}."
+        )
+    return int(value)
+
+
+def seeded(seed: Any) -> int:
+    """Return the seed of episodes or networks. Raises BotschoolError."""
+    return whole("seed", seed, 0, 2**64 - 1)
+
+
+def numbers(name: str, values: Any) -> np.ndarray:
+    """Return an array of numbers, of any shape. Raises BotschoolError for texts and the like."""
+    try:
+        array = np.asarray(values)
+    except (ValueError, TypeError, OverflowError):  # rows of different lengths, for example
+        array = np.empty(0, object)
+    if array.dtype.kind not in "fiu":
+        raise BotschoolError(
+            f"{name} is {shown(values)}, but must be an array of numbers, all rows equally long."
+        )
+    return array
 
 
 def usable(workers: int, native: bool) -> int:
     """Return how many workers can start: one, with a note, where a script's processes would run the
     script again. Raises BotschoolError for no number of workers.
     """
-    if isinstance(workers, bool) or not isinstance(workers, (int, np.integer)) or workers < 1:
-        raise BotschoolError(f"workers is {workers!r:.40}, but must be a whole number above 0.")
+    workers = whole("workers", workers)
     script = getattr(sys.modules.get("__main__"), "__file__", None)
     if native or workers == 1 or script is None or not script.endswith(".py"):
-        return int(workers)
+        return workers
     try:
         guarded = "__name__" in Path(script).read_text(encoding="utf-8", errors="replace")
     except OSError:
         guarded = True
     if guarded:
-        return int(workers)
+        return workers
     print(
         f"note: workers = 1, because worker processes import {script}: put its calls under "
         "`if __name__ == '__main__':` to use more.",

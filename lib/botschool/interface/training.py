@@ -14,7 +14,7 @@ import numpy as np
 
 from botschool.evolution import fresh
 from botschool.interface.showing import Folder, bars, interruptible
-from botschool.interface.sources import check_words, in_python_words
+from botschool.interface.sources import check_words, in_python_words, seeded, whole
 from botschool.rl.folder import RunFolder
 
 HISTORY = np.dtype([("steps", np.int64), ("mean", float), ("sd", float), ("length", float)])
@@ -56,6 +56,7 @@ def train(
         env = f"botschool/{env}"
     with in_python_words(), interruptible() as stopping:
         check_words(hyperparameters)
+        seed, workers = whole("seed", seed, 0), whole("workers", workers)
         settings = choose(
             algo, env, policy, hyperparameters, envs, steps, seed, wrappers=wrappers, engine=engine
         )
@@ -113,7 +114,7 @@ class Agent:
         Without exploration. seed: of the first episode; by default they are fresh ones. Raises
         BotschoolError.
         """
-        player = self._player(seed)
+        player, episodes = self._player(seed), whole("episodes", episodes)
         with in_python_words(), redirect_stdout(io.StringIO()):
             player.play(episodes)
         return np.array(player.returns)
@@ -122,7 +123,7 @@ class Agent:
         """Write a film (.mp4, .webm, .gif) of the episodes that `play` plays; return its path."""
         from botschool.render.video import write_video
 
-        player = self._player(seed)
+        player, episodes = self._player(seed), whole("episodes", episodes)
         with in_python_words(), redirect_stdout(io.StringIO()):
             write_video(Path(path), player.frames(episodes), player.fps)
         return Path(path)
@@ -134,7 +135,7 @@ class Agent:
     def _player(self, seed: int | None) -> Any:
         from botschool.rl.player import NEW_EPISODES_SEED, Player
 
-        start = self.settings.seed if seed is None else seed - NEW_EPISODES_SEED
+        start = self.settings.seed if seed is None else seeded(seed) - NEW_EPISODES_SEED
         with in_python_words():
             return Player(self._run.best, start)
 

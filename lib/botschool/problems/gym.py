@@ -13,6 +13,7 @@ from botschool.errors import BotschoolError
 from botschool.inifile import shown
 from botschool.policies.policy import Policy
 from botschool.problems.making import is_ours, make_env
+from botschool.problems.pictures import rate
 from botschool.problems.python import START, STEP, PythonProblem, Wrong
 from botschool.problems.spaces import Flattener, Unsupported, fitted, interface
 from botschool.problems.transition import Transition
@@ -38,7 +39,7 @@ class GymProblem(PythonProblem):
         self._renew()
         registered = self._env.unwrapped.spec
         self.limit = None if registered is None else registered.max_episode_steps
-        self.fps = self._metadata.get("render_fps") or 30
+        self.fps = rate(self._metadata, name)
         body = int(getattr(self._env.unwrapped, "morphology_size", 0))
         try:
             self._flattener = Flattener(self._env.observation_space, name)

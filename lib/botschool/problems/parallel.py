@@ -11,6 +11,7 @@ from botschool import wrappers
 from botschool.errors import BotschoolError
 from botschool.policies.hyperparameters import PolicyConfig
 from botschool.policies.pair import Pair
+from botschool.problems.pictures import rate
 from botschool.problems.python import PythonProblem, Wrong
 from botschool.problems.spaces import Flattener, Unsupported, fitted, interface
 from botschool.problems.transition import Transition
@@ -40,7 +41,7 @@ class ParallelProblem(PythonProblem):
         self._options = wrappers.keywords(options)
         self._renew()
         self.limit = None
-        self.fps = self._metadata.get("render_fps") or 30
+        self.fps = rate(self._metadata, name)
         self.agents = self._two_agents()
         one, other = map(str, self.agents)
         self.sides = one, other

@@ -17,6 +17,7 @@ from botschool.errors import BotschoolError, said
 from botschool.inifile import shown
 from botschool.policies.policy import Policy
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem, say_unrepeatable
+from botschool.problems.pictures import picture
 from botschool.problems.transition import Transition
 from botschool.seeds import libraries_kept, seed_libraries
 
@@ -88,7 +89,9 @@ class PythonProblem(Problem):
         for i in range(n):
             if stopping():
                 raise Interrupted
-            policy.load(genotypes[episodes.candidate[..., i]], normalisation)
+            row = episodes.candidate[..., i]
+            own = normalisation is not None and normalisation.ndim == 2
+            policy.load(genotypes[row], normalisation[row] if own else normalisation)
             wanted = episodes.collect is not None and episodes.collect[i]
             moments = outcome.moments[i] if wanted else None
             seed, episode = int(episodes.seed[i]), int(episodes.episode[i])
@@ -126,7 +129,7 @@ class PythonProblem(Problem):
             with libraries_kept():
                 for transition in self._episode(env, policy, seed, episode, maxsteps):
                     if render:
-                        transition.frame = self._picture(env)
+                        transition.frame = picture(self._call(env.render, "render"), self.name)
                     yield transition
         finally:
             if render:
@@ -259,19 +262,16 @@ class PythonProblem(Problem):
 
     def _number(self, reward, step: int, seed: int, episode: int) -> float:
         try:
-            number = float(reward)
+            number = float(reward.item() if isinstance(reward, np.ndarray) else reward)
         except (TypeError, ValueError, OverflowError):
-            number = np.nan
+            number = None
+        if number is None or isinstance(reward, (str, bytes)):
+            what = f"a reward of {shown(reward)} ({type(reward).__name__}, not a number)"
+            raise self.broken(f"{what} at step {step}", seed, episode, acted=False)
         if not abs(number) <= LARGEST:
             large = f" (above {LARGEST:g}: scale rewards down)" if abs(number) > LARGEST else ""
             raise self.broken(f"a reward of {shown(reward)}{large} at step {step}", seed, episode)
         return number
-
-    def _picture(self, env) -> np.ndarray:
-        frame = np.asarray(self._call(env.render, "render"))
-        if frame.ndim != 3 or frame.shape[2] != 3:
-            raise self._unseen()
-        return frame.astype(np.uint8)
 
     def _unseen(self) -> BotschoolError:
         return BotschoolError(

@@ -186,6 +186,8 @@ def _single(space: spaces.Box, raw: Any) -> np.ndarray:
     with np.errstate(over="ignore"):
         values = np.asarray(raw, dtype=np.float32)
     if values.shape != space.shape:
+        if np.squeeze(values).shape == tuple(n for n in space.shape if n != 1):
+            return values.reshape(space.shape)
         raise ValueError(f"it has shape {values.shape} instead of {space.shape}")
     return values
 

@@ -108,9 +108,11 @@ class Workers:
             shape = chosen.candidate.shape
             used, places = np.unique(chosen.candidate, return_inverse=True)
             chosen.candidate = places.reshape(shape)
+            own = normalisation is not None and normalisation.ndim == 2
+            vectors = normalisation[used] if own else normalisation
             with _unheard(signal.SIGINT):  # only the main process handles Ctrl-C
                 future = self._pool.submit(
-                    _evaluate, self._fresh, genotypes[used], normalisation, chosen, maxsteps
+                    _evaluate, self._fresh, genotypes[used], vectors, chosen, maxsteps
                 )
             running[future] = i
         while running:

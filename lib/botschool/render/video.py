@@ -92,6 +92,12 @@ def _send(first: np.ndarray, others: Iterator[np.ndarray], pipe: IO[bytes], path
     """Send all frames; return False if the encoder ended early."""
     frame = first
     while frame is not None:
+        if frame.shape[:2] != first.shape[:2]:
+            raise BotschoolError(
+                f"{path} is not written: its pictures have different sizes, {first.shape[1]} x "
+                f"{first.shape[0]} and {frame.shape[1]} x {frame.shape[0]} pixels, and a film has "
+                "one."
+            )
         if frame.shape != first.shape or frame.dtype != np.uint8 or frame.shape[2:] != (3,):
             raise BotschoolError(
                 f"{path} is not written: a frame of shape {frame.shape} and type {frame.dtype} "

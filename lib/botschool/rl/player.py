@@ -9,6 +9,7 @@ import gymnasium
 import numpy as np
 
 from botschool.errors import BotschoolError
+from botschool.problems.pictures import picture, rate
 from botschool.problems.transition import Transition
 from botschool.rl.agent import Agent, play, stacked
 from botschool.rl.environments import make
@@ -64,7 +65,7 @@ class Player:
                 actions, state = self.agent.act(stacked([seen]), state, starts)
                 observation, reward, terminated, truncated, _ = env.step(actions[0])
                 step, total, ended = step + 1, total + reward, terminated or truncated
-                frame = _picture(env, self.env)
+                frame = picture(env.render(), self.env)
                 yield Transition(step, reward, total, seen, actions[0], np.zeros(0), frame=frame)
         finally:
             env.close()
@@ -101,7 +102,7 @@ class Player:
         """Return the frame rate of the environment's pictures."""
         env = self._make()
         env.close()
-        return float(env.metadata.get("render_fps") or 30)
+        return rate(env.metadata, self.env)
 
     def print_summary(self) -> None:
         """Print mean and standard deviation over the episodes played."""
@@ -111,13 +112,6 @@ class Player:
                 f"standard deviation {readable(float(np.std(self.returns)))}"
                 f"  steps {np.mean(self.lengths):.1f}  episodes {len(self.returns)}"
             )
-
-
-def _picture(env, name: str) -> np.ndarray:
-    frame = np.asarray(env.render())
-    if frame.ndim != 3 or frame.shape[2] != 3:
-        raise _unseen(name)
-    return frame.astype(np.uint8)
 
 
 def _unseen(name: str) -> BotschoolError:
