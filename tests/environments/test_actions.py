@@ -17,7 +17,9 @@ from running import write_experiment
 def actions(space, **hyperparameters):
     """Return the actions that outputs far below and far above 0 give in a new environment."""
     policy = Policy(
-        "any", interface(1, space, 0, scaled=True), config.PolicyConfig(nhiddens=0, **hyperparameters)
+        "any",
+        interface(1, space, 0, scaled=True),
+        config.PolicyConfig(nhiddens=0, **hyperparameters),
     )
     policy.network.parameters[:] = 100
     return [fitted(policy.act(np.array([sign])), space).tolist() for sign in (-1.0, 1.0)]

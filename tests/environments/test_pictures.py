@@ -97,7 +97,9 @@ def test_other_rewards_are_named_by_their_type(form, kind):
 @pytest.mark.parametrize("fps", ["'30'", -3])
 def test_a_rate_that_is_no_number_is_said(fps, capsys, tmp_path):
     problem = otherwise(f"fps={fps}")
-    assert f"render_fps of Otherwise-v0 is {fps}".replace("'", "") in capsys.readouterr().err.replace("'", "")
+    assert f"render_fps of Otherwise-v0 is {fps}".replace(
+        "'", ""
+    ) in capsys.readouterr().err.replace("'", "")
     assert problem.film(problem.initial(), tmp_path / "a.gif").stat().st_size > 0
 
 

@@ -93,6 +93,22 @@ def test_ways_to_write_a_file(tmp_path, content):
     assert experiment == Experiment(Exp("CartPole-v1", "SSS"), PolicyConfig(), SSSConfig(popsize=8))
 
 
+@pytest.mark.parametrize(
+    ("lines", "pepisodes"),
+    [
+        ("environment = CartPole-v1", 20),
+        ("environment = botschool/SpatialAnt-v5\nalgo = sNES", 20),
+        ("environment = CartPole-v1\nwrappers = TimeAwareObservation", 5),
+        ("environment = LunarLander-v3", 5),
+        ("environment = ErStaybehind\nalgo = coevo", 1),
+    ],
+)
+def test_a_silent_file_post_evaluates_in_enough_episodes(lines, pepisodes, tmp_path):
+    path = write(tmp_path, text(exp=lines))
+    assert load(path).policy.pepisodes == pepisodes
+    assert load(write(tmp_path, text("pepisodes = 1", exp=lines))).policy.pepisodes == 1
+
+
 REFUSED = {
     "empty file": ("", "section [EXP] is missing", "add a line [EXP]", "environment = NAME"),
     "no environment": (text(exp=""), "environment is missing", "environment = NAME", "[EXP]"),

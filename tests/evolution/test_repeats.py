@@ -12,7 +12,7 @@ from botschool import problems
 from botschool.config import load
 from botschool.policies.hyperparameters import PolicyConfig
 from botschool.problems import Episodes
-from botschool.problems.base import say_unrepeatable
+from botschool.problems.base import say
 from running import call, experiment, run_seeds, same, write_experiment
 
 NOTE = "does not repeat"
@@ -20,7 +20,7 @@ NOTE = "does not repeat"
 
 @pytest.fixture(autouse=True)
 def nothing_was_said():
-    say_unrepeatable.cache_clear()
+    say.cache_clear()
 
 
 @pytest.mark.slow
@@ -28,6 +28,7 @@ def nothing_was_said():
     "name",
     [
         pytest.param("BipedalWalker-v3", marks=pytest.mark.long),
+        pytest.param("BipedalWalkerHardcore-v3", marks=pytest.mark.long),
         *("odd_envs:DrawsGlobally-v0", "odd_envs:SeedsOnce-v0", "odd_envs:GetsHarder-v0"),
     ],
 )
@@ -58,13 +59,34 @@ def test_or_it_is_said_once(name, workers, tmp_path, capfd):
 
 
 @pytest.mark.slow
+def test_what_is_kept_in_a_process_changes_each_run_alike(tmp_path, capfd):
+    own = experiment(tmp_path, "odd_envs:CountsForAll-v0", maxmsteps=0.0008)
+    for folder in ("one", "other"):
+        say.cache_clear()
+        assert run_seeds(own, tmp_path / folder, workers=2)
+        assert capfd.readouterr().err.count(NOTE) == 1
+    assert same(tmp_path / "one", tmp_path / "other")
+
+
+def test_a_world_of_box2d_is_new_in_each_episode():
+    """Its environment shows what it keeps after more episodes than a first look has."""
+    pytest.importorskip("Box2D")
+    problem = problems.make("odd_envs:KeepsAWorld-v0")
+    policy = problem.policy(PolicyConfig(nhiddens=0))
+    episodes = Episodes.of([1], 60)
+    episodes.episode[:] = 0
+    returns = problem.evaluate(policy, policy.initial(1)[None], None, episodes, 10).fitness
+    assert len(set(returns.tolist())) == 1
+
+
+@pytest.mark.slow
 def test_what_differs_between_processes_is_said(tmp_path, capfd):
     own = experiment(tmp_path, "odd_envs:HashesTexts-v0", maxmsteps=0.0005)
     assert run_seeds(own, tmp_path / "two", workers=2)
     assert capfd.readouterr().err.count(NOTE) == 1
     words = ("es", "-f", tmp_path / "own.ini", "-s", 1, "-o", tmp_path / "parts")
     assert call(*words, "--generations", 1)[0] == 0
-    say_unrepeatable.cache_clear()
+    say.cache_clear()
     assert run_seeds(own, tmp_path / "parts", resume=True)
     assert capfd.readouterr().err.count(NOTE) == 1
 

@@ -116,8 +116,8 @@ class Problem(ABC):
         """Run the episodes. The outcome is a pure function of the first five arguments.
 
         genotypes: float64, shape (candidates, genotype_size). normalisation: vectors of all
-        candidates, or (candidates, 2 * observations), a row for each. Raises `Interrupted` soon after
-        `stopping()` is true, and BotschoolError if the environment breaks down.
+        candidates, or (candidates, 2 * observations), a row for each. Raises `Interrupted` soon
+        after `stopping()` is true, and BotschoolError if the environment breaks down.
         """
 
     @abstractmethod

@@ -10,8 +10,7 @@ import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager, suppress
-from threading import BrokenBarrierError
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -24,15 +23,14 @@ from botschool.problems.base import Episodes, Interrupted, Outcome, say_unrepeat
 CHUNKS = 10
 # How often workers may die without finishing a single chunk.
 PATIENCE = 3
-START_SECONDS = 60
-"""So long the first worker waits for the second, at most."""
 
 
 class Workers:
     """A pool of processes, each with its own environment and network.
 
-    A worker that dies is replaced and its episodes run again. They are pure functions of their
-    inputs, so the outcome is the same.
+    The number of a chunk decides which worker gets it, so that an environment that keeps something
+    in its process gives the same results in each run. If a worker dies, all are replaced and what
+    is missing runs again. Episodes are pure functions of their inputs, so the outcome is the same.
     """
 
     def __init__(self, made: dict[str, Any], config: PolicyConfig, workers: int) -> None:
@@ -40,7 +38,8 @@ class Workers:
         self._name = made["name"]
         self._arguments = (made, config)
         self._workers = workers
-        self._pool: ProcessPoolExecutor | None = None
+        self._pools: list[ProcessPoolExecutor] = []
+        """A pool of one process for each worker."""
         self._fresh: bool | None = None
         """What the first two workers found out for all: see PythonProblem.fresh."""
 
@@ -81,17 +80,15 @@ class Workers:
         )
 
     def _run(self, chunks, done, genotypes, normalisation, episodes, maxsteps, stopping) -> None:
-        if self._pool is None:
+        if not self._pools:
             context = multiprocessing.get_context("spawn")
-            self._pool = ProcessPoolExecutor(
-                self._workers,
-                mp_context=context,
-                initializer=_start,
-                initargs=(*self._arguments, context.Barrier(2)),
-            )
+            self._pools = [
+                ProcessPoolExecutor(1, context, _start, self._arguments)
+                for _ in range(self._workers)
+            ]
         if self._fresh is None:
             with _unheard(signal.SIGINT):
-                settling = [self._pool.submit(_settle) for _ in range(2)]
+                settling = [pool.submit(_settle) for pool in self._pools[:2]]
             while wait(settling, timeout=0.2).not_done:
                 if stopping():
                     self.close()
@@ -111,7 +108,7 @@ class Workers:
             own = normalisation is not None and normalisation.ndim == 2
             vectors = normalisation[used] if own else normalisation
             with _unheard(signal.SIGINT):  # only the main process handles Ctrl-C
-                future = self._pool.submit(
+                future = self._pools[i % self._workers].submit(
                     _evaluate, self._fresh, genotypes[used], vectors, chosen, maxsteps
                 )
             running[future] = i
@@ -125,24 +122,21 @@ class Workers:
 
     def close(self) -> None:
         """End the processes without waiting for unfinished episodes."""
-        if self._pool is None:
-            return
-        for process in list((self._pool._processes or {}).values()):
-            process.terminate()
-        # Wait for the pool's own thread: at the program's end, CPython would wake it through a pipe
+        for pool in self._pools:
+            for process in list((pool._processes or {}).values()):
+                process.terminate()
+        # Wait for a pool's own thread: at the program's end, CPython would wake it through a pipe
         # that the thread may be closing at that moment.
-        self._pool.shutdown(wait=True, cancel_futures=True)
-        self._pool = None
+        for pool in self._pools:
+            pool.shutdown(wait=True, cancel_futures=True)
+        self._pools = []
 
 
 _worker: tuple | BotschoolError | None = None
-_together: Any = None
-"""A barrier for the two workers that settle."""
 
 
-def _start(made: dict[str, Any], config: PolicyConfig, together: Any) -> None:
-    global _worker, _together
-    _together = together
+def _start(made: dict[str, Any], config: PolicyConfig) -> None:
+    global _worker
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
     from botschool import problems
@@ -180,12 +174,7 @@ def _made() -> tuple[Any, Any]:
 
 
 def _settle() -> tuple[bool, dict[int, bytes] | None]:
-    """Return whether every episode gets a new environment, and what PythonProblem.settle does.
-
-    It waits for another process to do the same, so that what differs between processes shows.
-    """
-    with suppress(BrokenBarrierError):
-        _together.wait(START_SECONDS)
+    """Return whether every episode gets a new environment, and what PythonProblem.settle does."""
     problem, policy = _made()
     seen = problem.settle(policy)
     return problem.fresh, seen
