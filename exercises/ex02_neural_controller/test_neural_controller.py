@@ -138,8 +138,9 @@ def made_up(module, call, ninputs, noutputs, start, arguments, rewards):
 
 
 def sized(rng, *starts):
-    for start in starts:
-        yield "sizes", *rng.integers(3, 30, 2).tolist(), start, [], []
+    for count, start in enumerate(starts):
+        ninputs, noutputs = rng.integers(3, 30, 2).tolist()
+        yield "sizes", ninputs, noutputs if count else 2, start, [], []
 
 
 same(counting, 4, made_up, name="counts_choices_that_start_anywhere")(sized, 0, 7, 5)

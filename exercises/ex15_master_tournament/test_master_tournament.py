@@ -14,8 +14,6 @@ from botschool.grading import Exercise, same
 
 exercise = Exercise(15, "The master tournament", file="master_tournament.py")
 PARAMETERS, UNITS, INPUTS = 4977, 25, 24
-TOOL = ("botschool.analysis.tournament",)
-"""What the tool's own tournament has for tasks 15.3, 15.5 and 15.7."""
 
 
 # ------------------------------------------------------------------- robots made by hand
@@ -90,7 +88,7 @@ def of_different_sizes(rng):
     yield groups(rng, (3, 2), (2, 4), 70)
 
 
-averaging = exercise.task("15.3", "The master matrix", refused=TOOL)
+averaging = exercise.task("15.3", "The master matrix")
 
 
 def random_table(rng, *shape):
@@ -161,7 +159,7 @@ of_matrices(
     times, 8, "profile", parts=("ancient", "future"), name="against_the_past_and_the_future"
 )(matrices)
 
-gaining = exercise.task("15.5", "Progress, or running in circles?", refused=TOOL)
+gaining = exercise.task("15.5", "Progress, or running in circles?")
 of_matrices(gaining, 7, "progress", parts=("historical", "global"), name="over_the_predecessor")(
     matrices
 )
@@ -185,7 +183,7 @@ hiding = exercise.task("15.6", "What contemporary fitness hides")
 of_matrices(hiding, 3, "red_queen", parts=("change",), name="what_is_seen")(matrices)
 of_matrices(hiding, 7, "red_queen", parts=("own", "others"), name="what_is_hidden")(matrices)
 
-sure = exercise.task("15.7", "How sure is it?", refused=TOOL)
+sure = exercise.task("15.7", "How sure is it?")
 
 
 def measured(module, table, weights, seed, options):

@@ -12,6 +12,7 @@ from botschool.grading.declare import diagnosis, libraries
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.diagnosis import DETECTORS, diagnose
 from botschool.grading.declare.diagnosis.comparison import Comparison
+from botschool.grading.declare.libraries import Refused
 from botschool.grading.run.student import Student
 from tiny_course import submit
 
@@ -299,7 +300,7 @@ def die():
 
 @pytest.fixture
 def student(tmp_path):
-    made = Student(submit(tmp_path, TEXT), 5, refused=NAMES)
+    made = Student(submit(tmp_path, TEXT), 5, refused=Refused(NAMES))
     yield made
     made.close()
 

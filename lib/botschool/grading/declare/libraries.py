@@ -1,6 +1,7 @@
 """List what libraries have for a task, so that students write it themselves.
 
-A grader gives these lists to `Exercise.task(refused=...)`, and the exercise's text says so. The
+A grader gives these lists to `Exercise.task(refused=...)`, and the exercise's text says so. Modules
+of botschool that an exercise does not use need no list: they do not exist (modules.py). The
 forms of the names are those of botschool/grading/run/refused.py. Prefer whole modules, and below
 them operators: what a name leads to has other names, too. Other forbidden ways need other questions
 in the grader: it recognises finite differences in place of a gradient, for example, because they
@@ -30,7 +31,7 @@ _SB3 = ("stable_baselines3", "sb3_contrib")
 
 BACKPROPAGATION = (
     "torch", "functorch", "torchvision", "torchaudio", "jax", "jaxlib", "tensorflow", "keras",
-    "autograd", "sympy", "casadi", "tinygrad", "theano", "pytensor", "mxnet", *_NATIVE_PPO, *_SB3,
+    "autograd", "sympy", "casadi", "tinygrad", "theano", "pytensor", "mxnet", *_SB3,
 )  # fmt: skip
 """Whatever differentiates; a submission's process has none of it."""
 CROSS_ENTROPY = (
@@ -77,4 +78,4 @@ OPENAI_ES = (
     *("torch", "tensorflow", "keras", "optax", "sklearn"),
 )
 """With the libraries that have Adam."""
-TRAINING = ("botschool.evolution.run:Run.advance", *_NATIVE_PPO, *_SB3)
+TRAINING = _SB3
