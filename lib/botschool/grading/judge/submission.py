@@ -287,7 +287,7 @@ class Submission:
             newer = all(NEWER in error for _, _, _, error, _ in defined.left_out)
             head = "is not Python yet. Mend this first:"
             if newer:
-                head = "needs a newer Python. This one cannot read:"
+                head = "needs a newer Python than the one that grades. This cannot be read:"
             self.banner = "\n".join([f"{what} {head}", *broken])
         strict = broken and os.environ.get(SYNTAX) == EVERYTHING
         if strict or not _DEFINITION.search(defined.text):
