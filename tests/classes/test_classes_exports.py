@@ -15,7 +15,7 @@ import pytest
 
 from botschool.errors import BotschoolError
 from botschool.grading.classes.choice import Wanted, find_submissions
-from botschool.grading.classes.export import one_person, read_export
+from botschool.grading.classes.download import one_person, read_download
 from botschool.grading.classes.files import numbered_folders
 from botschool.grading.classes.policy import read_policy
 from botschool.grading.classes.register import Register
@@ -62,7 +62,7 @@ def find(course, tmp_path):
         folder = tmp_path / "unpacked"
         shutil.rmtree(folder, ignore_errors=True)
         new_folder, wanted = numbered_folders(folder), [Wanted(3, FILE, course)]
-        export = read_export(download, wanted, new_folder)
+        export = read_download(download, wanted, new_folder)
         register = Register(find_submissions(export.people, wanted, course, new_folder), Policy())
         named = {row.name: row.parts[0] for row in register.rows}
         assert len(named) == len(export.people)
@@ -189,7 +189,7 @@ def test_a_group_has_a_row_for_each(find, tmp_path):
     found, _ = find(tmp_path / "class")
     assert set(found) == {"Ada", "Bob", "submission_8"}
     assert found["Ada"].choices[3].file == found["Bob"].choices[3].file
-    assert found["Ada"].ids["email"] == "a@b.c"
+    assert found["Ada"].about["submitter's email"] == "a@b.c"
 
 
 @pytest.mark.parametrize("metadata", ["- submission_7", "words", "7"])

@@ -17,9 +17,9 @@ import pytest
 from botschool.errors import BotschoolError
 from botschool.grading.classes import wall
 from botschool.grading.classes.choice import Wanted, find_submissions
-from botschool.grading.classes.export import one_person, read_export
+from botschool.grading.classes.download import one_person, read_download
 from botschool.grading.classes.files import numbered_folders
-from botschool.grading.classes.layouts import told_by
+from botschool.grading.classes.times import told_by
 from botschool.grading.classes.wall import Broken, walled
 from exports import of_tar, written, zipped
 from running import call
@@ -41,7 +41,7 @@ def find(course, tmp_path):
 
     def of(files):
         new_folder, wanted = numbered_folders(tmp_path / "unpacked"), [Wanted(3, FILE, course)]
-        export = read_export(written(tmp_path / "class", files), wanted, new_folder)
+        export = read_download(written(tmp_path / "class", files), wanted, new_folder)
         found = find_submissions(export.people, wanted, course, new_folder)
         return {one.student: one for one in found}
 
@@ -218,7 +218,7 @@ def test_a_bad_list_within_one_submission_is_no_download(course, tmp_path):
     place = written(tmp_path / "eve", INSIDE["Gradescope"])
     assert one_person(place, numbered_folders(tmp_path / "new")).student == "submission_5"
     with pytest.raises(BotschoolError, match="is damaged: download it again"):
-        read_export(place, [Wanted(3, FILE, course)], numbered_folders(tmp_path / "new"))
+        read_download(place, [Wanted(3, FILE, course)], numbered_folders(tmp_path / "new"))
 
 
 def commit(folder, day):

@@ -17,7 +17,7 @@ from botschool.grading.classes.batch import serve
 from botschool.grading.classes.candidate import Choice
 from botschool.grading.classes.choice import Wanted
 from botschool.grading.classes.collect import Laboratory
-from botschool.grading.classes.export import one_person
+from botschool.grading.classes.download import one_person
 from botschool.grading.classes.files import File, Handed, listed, numbered_folders
 from botschool.grading.declare.exercise import Exercise, Number
 from botschool.grading.declare.state import DEFAULT, VARIABLE

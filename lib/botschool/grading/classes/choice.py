@@ -9,7 +9,7 @@ from pathlib import Path
 
 from botschool.errors import BotschoolError
 from botschool.grading.classes.candidate import Candidate, Choice, Sought, settle, squashed
-from botschool.grading.classes.export import Person, one_person
+from botschool.grading.classes.download import Person, one_person
 from botschool.grading.classes.files import TIMESTAMP, File, Handed, listed, numbered_folders
 from botschool.grading.classes.texts import MAX_NOTEBOOK, MAX_TEXT
 from botschool.grading.classes.unpack import kind_of, may_hold_code
@@ -156,7 +156,8 @@ def find_submissions(
     found = list(people)
     for one in found:
         try:
-            one.choices, one.notes = walled(_of_one, one, wanted, root, new_folder())
+            told = walled(_of_one, one, wanted, root, new_folder())
+            one.choices, one.notes, one.is_empty = told
         except Broken as error:
             one.choices = {each.number: _unreadable(error) for each in wanted}
     return found
@@ -164,10 +165,13 @@ def find_submissions(
 
 def _of_one(
     one: Person, wanted: list[Wanted], root: Path, folder: Path
-) -> tuple[dict[Number, Choice], list[str]]:
-    """Return a person's choices and notes; folder: for what is unpacked and copied."""
+) -> tuple[dict[Number, Choice], list[str], bool]:
+    """Return a person's choices and notes, and whether all files are empty.
+
+    folder: for what is unpacked and copied.
+    """
     if one.problem:
-        return {each.number: Choice(problem=one.problem) for each in wanted}, []
+        return {each.number: Choice(problem=one.problem) for each in wanted}, [], False
     one.new_folder = new_folder = numbered_folders(folder)
     handed, newest_first = one.handed, one.platform in ("canvas", "attempt")
     for each in wanted:
@@ -175,7 +179,17 @@ def _of_one(
             one.choices[each.number] = each.choose(handed, new_folder, newest_first)
         except Exception as error:
             one.choices[each.number] = _unreadable(broken(error))
-    return one.choices, [*handed.notes, *_left(one, root)]
+    files, odd = handed.files, handed.links or handed.unread or handed.notes
+    is_empty = bool(files) and not odd and not one.files and not any(map(_holds, files))
+    return one.choices, [*handed.notes, *_left(one, root)], is_empty
+
+
+def _holds(file: File) -> bool:
+    """Return whether a file has content, or cannot be read."""
+    try:
+        return bool(file.read(1))
+    except OSError:
+        return True
 
 
 def _unreadable(error: Broken) -> Choice:

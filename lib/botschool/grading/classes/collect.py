@@ -14,7 +14,7 @@ from typing import Any
 
 from botschool.grading.classes.batch import Grades, Job
 from botschool.grading.classes.choice import Wanted, find_submissions
-from botschool.grading.classes.export import Export, read_export
+from botschool.grading.classes.download import Download, read_download
 from botschool.grading.classes.files import listed, numbered_folders
 from botschool.grading.classes.outputs import OWN, WORDS, write_outputs
 from botschool.grading.classes.policy import FILE, add_table
@@ -73,7 +73,7 @@ def grade_all(
 ) -> Class:
     """Grade every submission and write grades.csv and feedback/STUDENT.html into `output`.
 
-    download: a folder or a zip file, as in export.read_export. secret: of the grading seeds; None
+    download: a folder or a zip file, as in read_download. secret: of the grading seeds; None
     as in batch.Grades. start(count) is called with the number of files, report() after each of
     them. laboratories: all that there are. only_handed_in: whether to leave out laboratories that
     nobody handed in. Raises BotschoolError before it starts, if this machine lacks what a submitted
@@ -90,7 +90,9 @@ def grade_all(
             else laboratories[number].wanted
             for number in asked
         ]
-        export = read_export(download, wanted, new_folder)
+        lists = [each.students for each in (policy.people, policy.gradebook) if each]
+        known = frozenset(word for students in lists for each in students for word in each.words)
+        export = read_download(download, wanted, new_folder, known)
         people = find_submissions(export.people, wanted, root, new_folder)
         handed_in = {number for one in people for number in one.files}
         if only_handed_in:
@@ -113,11 +115,12 @@ def grade_all(
         written = write_outputs(output, register.rows, register, asked, skeletons, rules)
         known = [*exercise_numbers(root), *laboratories]
         notes += [*register.notes, *register.without_effect([*asked], known)]
+        notes = [*register.how, *dict.fromkeys(notes)]
         nobodys = [name for name in export.nobodys if name != FILE]
     return Class(register, nobodys, notes, written)
 
 
-def _notes(policy: Policy, export: Export, download: Path) -> list[str]:
+def _notes(policy: Policy, export: Download, download: Path) -> list[str]:
     """Return sentences on the tables and settings of the class."""
     tables = {id(each): each for each in (policy.people, policy.gradebook) if each}
     notes = [note for each in tables.values() for note in each.notes]
@@ -180,7 +183,7 @@ def _page_names(rows: list[Row]) -> list[str]:
     """Return the name of each row's page; the names of platforms distinguish people of one name."""
     firsts = [row.parts[0] if row.parts else None for row in rows]
     keys = [
-        f"{first.platform} {first.folder}" if first else f" {row.about.key}"
+        f"{first.platform} {first.key}" if first else f" {row.name}"
         for row, first in zip(rows, firsts, strict=True)
     ]
     return page_names([row.name for row in rows], keys)
@@ -207,18 +210,20 @@ def _table(rows: list[Row], register: Register) -> bytes:
     columns = []
     for result in rows[0].results:
         columns += [called(result["exercise"]).lower(), *(task["id"] for task in result["tasks"])]
-    people = ["id", "email", "handed in as"] if register.roster else []
-    lines: list[list[Any]] = [[*_FIRST_COLUMNS, *columns, "feedback", "notes", *people]]
+    heads = [*_FIRST_COLUMNS, *columns, "feedback", "notes"]
+    heads += ["handed in as"] if register.has_list else []
+    more = dict.fromkeys(h for row in rows for h in row.student.cells if h not in heads)
+    lines: list[list[Any]] = [[*heads, *more]]
     for row in rows:
         points: list[Any] = []
         for result in row.results:
             all_of = [result["points"], *(task["points"] for task in result["tasks"])]
             points += all_of if result["graded"] else [""] * len(all_of)
         link = f"{PAGES}/{row.page}" if row.page else ""
-        about = [row.student.id, row.student.mail] if row.student else ["", ""]
-        about += [listed(list(dict.fromkeys(part.student for part in row.parts)))]
         cells = [row.name, "" if row.total is None else row.total, *points, link, notes_of(row)]
-        lines.append(cells + about * bool(people))
+        if register.has_list:
+            cells.append(listed(list(dict.fromkeys(part.student for part in row.parts))))
+        lines.append(cells + [row.student.cells.get(head, "") for head in more])
     return made_table(lines)
 
 

@@ -12,9 +12,9 @@ from botschool.errors import BotschoolError, BotschoolErrors
 from botschool.grading.classes.collect import PAGES, TABLE, Asked, Class, Laboratory, grade_all
 from botschool.grading.classes.exporting import export
 from botschool.grading.classes.files import listed
-from botschool.grading.classes.identity import read_answers, read_roster
 from botschool.grading.classes.outputs import filled
 from botschool.grading.classes.policy import FILE, read_policy
+from botschool.grading.classes.roster import read_answers, read_roster
 from botschool.grading.classes.rules import Policy
 from botschool.grading.classes.statistics import by_task, hardest
 from botschool.grading.classes.term import TABLE as TERM
@@ -133,16 +133,15 @@ def _policy(
     if settings is None and beside.is_file() and not beside.is_symlink():
         settings = beside
     policy = read_policy(settings, collect=True) if settings else Policy()
-    policy.folder = settings.parent if settings else folder
-    policy.answers = read_answers(policy.folder)
+    policy.answers = read_answers(settings.parent if settings else folder)
     roster = roster or policy.roster
     policy.people = read_roster(roster) if roster else None
     policy.gradebook = read_roster(gradebook) if gradebook else None
     policy.column = column
-    if policy.gradebook and policy.gradebook.kind == "plain":
+    if policy.gradebook and policy.gradebook.kind == "plain" and not column:
         raise BotschoolError(
-            f"{gradebook} is neither Moodle's grading worksheet nor Canvas's gradebook: name it "
-            "with --roster."
+            f"{gradebook} is neither Moodle's grading worksheet nor Canvas's gradebook: name the "
+            "column that takes the grades with --column, or the table with --roster."
         )
     return policy
 
@@ -191,7 +190,7 @@ def say_class(console: Console, found: Class) -> bool:
     unknown = f"{len(register.unknown)} not on the roster" if register.unknown else ""
     parts = [f"{len(handed_in)} submissions", register.average(), left, missing, unknown]
     lines = [", ".join(filter(None, parts)) + "."]
-    lines += [*register.lacking(), *found.notes]
+    lines += [*found.notes, *register.lacking()]
     if found.nobodys:
         lines.append(f"Nobody's: {listed(found.nobodys)}.")
     problems = [row.name for row in handed_in if any(r["problem"] for r in row.results)]
@@ -205,4 +204,4 @@ def say_class(console: Console, found: Class) -> bool:
         lines.append(f"Where the class stumbled: {shown}.")
     for line in lines:
         console.print(line, markup=False, soft_wrap=True)
-    return not (ungraded or register.missing or register.unknown or register.doubtful)
+    return not (ungraded or register.missing or register.unknown or register.doubts)

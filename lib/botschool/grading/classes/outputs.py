@@ -12,8 +12,9 @@ from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.classes.batch import remarks
-from botschool.grading.classes.identity import Roster, Student
+from botschool.grading.classes.files import listed
 from botschool.grading.classes.register import Members, Register, Row
+from botschool.grading.classes.roster import Roster
 from botschool.grading.classes.rules import MOST_POINTS, tidy
 from botschool.grading.classes.similar import (
     Program,
@@ -24,8 +25,9 @@ from botschool.grading.classes.similar import (
     similarity_page,
 )
 from botschool.grading.classes.statistics import by_task, statistics_page
-from botschool.grading.classes.tables import made_table, read_table, safe_cell
+from botschool.grading.classes.tables import made_table, number_in, read_table, safe_cell
 from botschool.grading.classes.term import RECORD, record
+from botschool.grading.classes.times import read_moment
 from botschool.grading.declare.checks import plain
 from botschool.grading.declare.exercise import Number, called
 from botschool.output import save_bytes
@@ -35,7 +37,7 @@ _EPOCH = (2000, 1, 1, 0, 0, 0)
 
 
 OWN = (
-    "class.html", "similar.html", "moodle.csv", "canvas.csv", "moodle-feedback.zip",
+    "class.html", "similar.html", "moodle.csv", "canvas.csv", "filled.csv", "moodle-feedback.zip",
     "canvas-feedback.zip", RECORD,
 )  # fmt: skip
 """Names of these files."""
@@ -75,13 +77,14 @@ def _feedback(output: Path, rows: list[Row]) -> dict[str, bytes]:
             section = f"-{Path(part.section).stem}" if part.section else ""
             own = files.setdefault(f"{part.platform}-feedback{section}.zip", {})
             if part.platform == "moodle":  # a page for each participant, in its own folder
-                name = f"{part.student}_{part.ids['participant']}_assignsubmission_file_"
-                upload = [each for each in part.upload if "assignsubmission_file" in each]
+                name = f"{part.key}_assignsubmission_file_"
+                folders = [path.name for path, _ in part.sources if path.is_dir()]
+                upload = [each for each in folders if "assignsubmission_file" in each]
                 page = (output / "feedback" / row.page).read_bytes()
                 own[f"{[*upload, name][0]}/feedback.html"] = page
             elif part.platform == "canvas":  # a text under the name of the submission
                 text = feedback_text(row.name, row.results, row.notes)
-                own |= dict.fromkeys(part.upload[:1], text.encode("utf-8", "replace"))
+                own |= dict.fromkeys(part.names[:1], text.encode("utf-8", "replace"))
     return {name: _zip(own) for name, own in files.items() if own}
 
 
@@ -91,16 +94,18 @@ def filled(output: Path, members: Members, comment: Callable[[Row], str]) -> dic
     if book is None:
         return {}
     points = {
-        student: (row.total, comment(row))
-        for student, row in members.book_rows()
+        at: (row.total, comment(row), row.name)
+        for row in members.rows
+        for at in row.student.rows
         if row.total is not None
     }
-    if output / f"{book.kind}.csv" == book.table.path:
+    name = {"moodle": "moodle.csv", "canvas": "canvas.csv", "plain": "filled.csv"}[book.kind]
+    if output / name == book.table.path:
         raise BotschoolError(f"{book.table.path} would be overwritten: give another copy of it.")
     if book.kind == "moodle":
-        return {"moodle.csv": moodle_worksheet(book, points, members.maximum)}
-    column = members.policy.column
-    return {"canvas.csv": canvas_gradebook(book, points, members.maximum, column)}
+        return {name: moodle_worksheet(book, points, members.maximum)}
+    column, notes = members.policy.column, members.notes
+    return {name: gradebook_with(book, points, members.maximum, column, notes)}
 
 
 def _words(output: Path, rows: list[Row], register: Register) -> dict[str, bytes]:
@@ -109,31 +114,28 @@ def _words(output: Path, rows: list[Row], register: Register) -> dict[str, bytes
     What stands in the table stays there, with a note where a text has changed since.
     """
     place, before = output / WORDS, dict[tuple[str, str], list[str]]()
-    columns = ("name", "id", "exercise", "points", "reason", "text", "rubric")
+    head = ["student", "exercise", "points", "comment", "text", "rubric"]
     if place.is_file():
         table = read_table(place)
         for old in table.rows:
-            cells = [table.get(old, each) for each in columns]
-            before[(cells[1] or cells[0]).lstrip("'"), cells[2]] = cells
+            cells = [table.get(old, each) for each in head]
+            before[cells[0].lstrip("'"), cells[1]] = cells
     found = []
     for row in rows:
         for task in [task for result in row.results for task in result["tasks"]]:
             if not (text := task.get("words", "")):
                 continue
-            key, name, what = row.about.key, row.name, task["id"]
-            old = before.pop((key, what), None) or before.pop((name, what), [""] * 6)
-            if old[3] and old[5] != safe_cell(text):
+            what = task["id"]
+            old = before.pop((row.name, what), [""] * 6)
+            if old[2] and old[4] != safe_cell(text):
                 register.notes.append(
-                    f"{row.name} has changed {what} since you gave {old[3]} points: look at "
+                    f"{row.name} has changed {what} since you gave {old[2]} points: look at "
                     f"{place} again."
                 )
             rubric = task.get("rubric", task["message"])
-            found.append([name, key, what, *old[3:5], text, rubric])
-    found += [cells for cells in before.values() if cells[3] or cells[4]]
-    if not found:
-        return {}
-    head = ["student", "id", "exercise", "points", "comment", "text", "rubric"]
-    return {WORDS: made_table([head, *found])}
+            found.append([row.name, what, *old[2:4], text, rubric])
+    found += [cells for cells in before.values() if cells[2] or cells[3]]
+    return {WORDS: made_table([head, *found])} if found else {}
 
 
 def _comment(row: Row) -> str:
@@ -189,72 +191,81 @@ def _sheets(rows: list[Row], number: Number) -> list[Sheet]:
     return [*found.values()]
 
 
-def moodle_worksheet(
-    roster: Roster, points: dict[Student, tuple[float, str]], maximum: float
-) -> bytes:
+Points = dict[int, tuple[float, str, str]]
+"""Number of a row -> the total, the comment and the name of the student who was graded."""
+
+
+def moodle_worksheet(roster: Roster, points: Points, maximum: float) -> bytes:
     """Return Moodle's grading worksheet with grades and comments; others' cells stay as they are.
 
-    points: total and comment of each student who was graded; maximum: the most that the total can
-    be. The grade is scaled to the worksheet's "Maximum Grade".
+    maximum: the most that the total can be. The grade is scaled to the worksheet's maximum, which
+    stands right of it. Comments stand in the last column, which is no column of times.
     """
-    table = deepcopy(roster.table)
-    grade, comment = table.column("grade"), table.column("feedbackcomments")
-    if grade is None:
-        raise BotschoolError(f"{table.path} has no column 'Grade': download the worksheet again.")
-    for student, (total, said) in points.items():
-        for row in [table.rows[number] for number in student.rows]:
-            row += [""] * (len(table.head) - len(row))
-            most = re.fullmatch(r"\s*(\d+(?:[.,]\d+)?)\s*", table.get(row, "maximumgrade"))
-            scale = float(most[1].replace(",", ".")) / maximum if most and maximum else 1.0
-            row[grade] = f"{total * scale:.2f}"
-            if comment is not None and said:
-                row[comment] = safe_cell(said)
+    table, last = deepcopy(roster.table), len(roster.table.head) - 1
+    cells = [table.cell(row, last) for row in table.rows]
+    has_comments = last > roster.grade + 1 and not any(
+        cell == "-" or read_moment(cell) for cell in cells
+    )
+    for at, (total, said, _) in points.items():
+        row = table.rows[at]
+        row += [""] * (len(table.head) - len(row))
+        most = number_in(table.cell(row, roster.grade + 1), MOST_POINTS)
+        row[roster.grade] = f"{total * (most / maximum if most and maximum else 1.0):.2f}"
+        if has_comments and said:
+            row[last] = safe_cell(said)
     return table.text()
 
 
-def canvas_gradebook(
-    roster: Roster, points: dict[Student, tuple[float, str]], maximum: float, column: str
+def gradebook_with(
+    roster: Roster, points: Points, maximum: float, column: str, notes: list[str]
 ) -> bytes:
     """Return Canvas's gradebook with the columns that identify students, and one of grades.
 
-    column: the head of the assignment's column, or a part of it. Raises BotschoolError where none
-    or more than one fits. The grade is scaled to the row "Points Possible".
+    Another platform's table keeps all columns. column: the head of the assignment's column, with
+    or without Canvas's number, or a part of it. Raises BotschoolError where not exactly one fits.
+    The grade is scaled to Canvas's row of points. Who is excused there (EX) stays so; notes: gets
+    a sentence on that.
     """
     table = roster.table
-    fixed = [i for i, head in enumerate(table.head) if head.strip() in _CANVAS_FIXED]
-    numbered = [i for i, head in enumerate(table.head) if re.search(r"\(\d+\)\s*$", head)]
-    fitting = [i for i in numbered if column.casefold() in table.head[i].casefold()]
-    if len(fitting) != 1:
-        names = plain(" ".join(", ".join(table.head[i] for i in numbered[:10]).split())) or "none"
+    choice = roster.numbered or [*range(len(table.head))]
+    index = _column(table.head, choice, column)
+    if index is None:
+        names = plain(" ".join(", ".join(table.head[i] for i in choice[:10]).split())) or "none"
         raise BotschoolError(
             f"{table.path}: name one assignment's column with --column; there are: {names}."
         )
-    index = fitting[0]
-    possible = [row for row in table.rows if row and "points possible" in row[0].lower()]
-    most = table_number(possible[0][index]) if possible and len(possible[0]) > index else None
+    above = {at: number_in(table.cell(table.rows[at], index), MOST_POINTS) for at in roster.above}
+    most = next(filter(None, above.values()), None)
     scale = most / maximum if most and maximum else 1.0
-    made = deepcopy(table)
-    made.head = [table.head[i] for i in (*fixed, index)]
+    made, excused = deepcopy(table), []
+    kept = [*roster.columns, index] if roster.kind == "canvas" else [*range(len(table.head))]
+    made.head = [table.head[i] for i in kept]
     made.rows = []
-    by_row = {row: total for student, (total, _) in points.items() for row in student.rows}
-    for number, row in enumerate(table.rows):
+    for at, row in enumerate(table.rows):
         row = row + [""] * (len(table.head) - len(row))
-        new = row[index] if number not in by_row else str(tidy(by_row[number] * scale))
-        if row in possible or number in by_row:
-            made.rows.append([*(row[i] for i in fixed), new])
+        if at in points and row[index].strip().upper() == "EX":
+            excused.append(points[at][2])
+        elif at in points:
+            row[index] = str(tidy(points[at][0] * scale))
+        if at in points or above.get(at) or roster.kind != "canvas":
+            made.rows.append([row[i] for i in kept])
+    if excused:
+        notes.append(f"Excused in {table.path.name}, so without a grade there: {listed(excused)}.")
     return made.text()
 
 
-_CANVAS_FIXED = ("Student", "ID", "SIS User ID", "SIS Login ID", "Integration ID", "Section")
-
-
-def table_number(text: str) -> float | None:
-    """Return the number in a cell; None if there is none, or one that cannot be points."""
-    try:
-        number = float(text.strip().replace(",", "."))
-    except ValueError:
-        return None
-    return number if 0 <= number <= MOST_POINTS else None
+def _column(heads: Sequence[str], choice: Sequence[int], wanted: str) -> int | None:
+    """Return the column of this head; else of the head without Canvas's number; else of a part."""
+    wanted = wanted.strip().casefold()
+    own = {i: heads[i].strip().casefold() for i in choice}
+    for fits in (
+        lambda head: head == wanted,
+        lambda head: re.sub(r"\s*\(\d+\)$", "", head) == wanted,
+        lambda head: wanted in head,
+    ):
+        if found := [i for i, head in own.items() if fits(head)]:
+            return found[0] if len(found) == 1 else None
+    return None
 
 
 def feedback_text(student: str, results: list[dict[str, Any]], notes: Sequence[str]) -> str:

@@ -8,15 +8,16 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from datetime import date, datetime, time
+from datetime import datetime
 from pathlib import Path
 from typing import Any, TypeVar
 
 from botschool.errors import BotschoolError, BotschoolErrors
-from botschool.grading.classes.identity import words
+from botschool.grading.classes.join import folded
 from botschool.grading.classes.rules import MOST_POINTS, TOTAL, Adjustment, LateRule, Policy
-from botschool.grading.classes.tables import Table, read_table
+from botschool.grading.classes.tables import Table, number_in, read_table
 from botschool.grading.classes.texts import is_larger
+from botschool.grading.classes.times import read_moment
 from botschool.grading.declare.exercise import Number
 from botschool.grading.judge.submission import EVERYTHING
 
@@ -27,6 +28,8 @@ _LATE = re.compile(
 )
 FILE = "class.yaml"
 MOST_VALUES = 100_000
+_WHO = ("id", "email", "username", "student", "name")
+"""Heads of the columns that name a student in the tables of class.yaml; the first one counts."""
 T = TypeVar("T")
 _KEYS = (
     "roster", "due", "late", "extensions", "adjustments", "submitted", "groups", "weights", "total",
@@ -37,12 +40,13 @@ _KEYS = (
 def read_policy(path: Path, collect: bool = False) -> Policy:
     """Return the settings of a class.yaml and of the tables that it names.
 
+    All values are texts as they are written: 00144 is no octal number, and "no" a user's name.
     Raises BotschoolErrors, which names all places; collect: only if nothing can be read, and leave
     the others to Policy.errors.
     """
     import yaml
 
-    class Loader(yaml.SafeLoader):
+    class Loader(yaml.BaseLoader):
         """Read mappings with the line of each key."""
 
     Loader.add_constructor("tag:yaml.org,2002:map", lambda loader, node: _Lined(loader, node))
@@ -57,7 +61,7 @@ def read_policy(path: Path, collect: bool = False) -> Policy:
         raise BotschoolError(f"{path}{where} is not valid YAML: correct it.") from None
     if is_larger(found, MOST_VALUES):
         raise BotschoolError(f"{path} holds too many values: does an alias (*) repeat them?")
-    found = _Lined() if found is None else found
+    found = found or _Lined()
     if not isinstance(found, _Lined):
         raise BotschoolError(f"{path} holds no settings: write lines as 'late: 10 per day'.")
     policy = _Reader(path).read(found)
@@ -137,28 +141,26 @@ class _Reader:
 
     def _table(self, value: Any, key: str) -> Iterator[tuple[Table, list[str], str]]:
         """Yield a table's rows and their places; what is wrong in one of them costs this one."""
-        if not isinstance(value, str):
+        if not isinstance(value, str) or not value:
             raise BotschoolError(f"'{key}' is not a file name.")
         table = read_table(self._path.parent / value)
         for line, row in enumerate(table.rows, 2):
             yield table, row, f"{table.path}, row {line}"
 
     def _who(self, table: Table, row: list[str], place: str) -> str:
-        for meaning in ("id", "mail", "user", "name"):
-            if name := table.get(row, meaning).lstrip("'"):
-                return self._key(name, place)
-        raise BotschoolError("names no student (by name, id or email).")
+        names = (table.get(row, head).lstrip("'") for head in _WHO)
+        if name := next(filter(None, names), ""):
+            return self._key(name, place)
+        raise BotschoolError(f"names no student in a column {', '.join(_WHO)}.")
 
     def _key(self, name: str, place: str) -> str:
-        """Return the key of a person: an id, mail or user name as it is, a name by its words."""
-        name = re.sub(r"(?i)^participant (?=\d+$)", "moodle ", name.strip())
-        is_number = re.fullmatch(r"(?i)(moodle|canvas) \d+", name)
-        key = words(name) if " " in name and not is_number else name.casefold()
+        """Return the key of a person."""
+        key = folded(name)
         self._policy.places.setdefault(key, place)
         return key
 
     def roster(self, value: Any) -> Path:
-        if not isinstance(value, str):
+        if not isinstance(value, str) or not value:
             raise BotschoolError("'roster' is not a file name.")
         return self._path.parent / value
 
@@ -179,7 +181,7 @@ class _Reader:
             place = self._place(value, name)
             with self._at(place):
                 dues = self._numbered(dues, what, _moment)
-                found.setdefault(self._key(str(name), place), {}).update(dues)
+                found.setdefault(self._key(name, place), {}).update(dues)
         return found
 
     def weights(self, value: Any) -> dict[Number, float]:
@@ -190,9 +192,10 @@ class _Reader:
         return _positive(value, f"'total: {value}' is not a number of points: write 'total: 100'.")
 
     def bonus(self, value: Any) -> bool:
-        if not isinstance(value, bool):
+        said = str(value).casefold()
+        if said not in ("yes", "no", "true", "false", "on", "off"):
             raise BotschoolError(f"'bonus: {value}' is neither yes nor no: write 'bonus: yes'.")
-        return value
+        return said in ("yes", "true", "on")
 
     def syntax(self, value: Any) -> str:
         if value not in ("its task", EVERYTHING):
@@ -208,8 +211,8 @@ class _Reader:
                 if table.path not in self._policy.tables:
                     self._policy.tables.append(table.path)
                 with self._at(place):
-                    if one := adjustment(table, row):
-                        found.setdefault(self._who(table, row, place), []).append(one)
+                    if change := adjustment(table, row):
+                        found.setdefault(self._who(table, row, place), []).append(change)
         return found
 
     def submitted(self, value: Any) -> dict[str, dict[Number, datetime]]:
@@ -242,7 +245,7 @@ def adjustment(table: Table, row: list[str]) -> Adjustment | None:
     """
     points = table.get(row, "points").lstrip("'").replace(",", ".")
     exercise, _, task = table.get(row, "exercise").partition(".")
-    reason = table.get(row, "reason").rstrip(".")
+    reason = table.get(row, "reason", "comment").rstrip(".")
     if not points and not (task and reason):
         return None
     match = re.fullmatch(r"([=+-]?)(\d+(?:\.\d+)?)", points or "0")
@@ -254,10 +257,10 @@ def adjustment(table: Table, row: list[str]) -> Adjustment | None:
 
 
 def _positive(value: Any, otherwise: str) -> float:
-    number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    if not number or not 0 <= value <= MOST_POINTS:
+    number = number_in(value, MOST_POINTS) if isinstance(value, str) else None
+    if number is None:
         raise BotschoolError(otherwise)
-    return float(value)
+    return number
 
 
 def _number(value: Any) -> Number:
@@ -272,29 +275,7 @@ def _number(value: Any) -> Number:
 
 
 def _moment(value: Any) -> datetime:
-    if isinstance(value, datetime):
-        moment = value
-    elif isinstance(value, date):
-        moment = datetime.combine(value, time(23, 59, 59))
-    else:
-        try:
-            text = str(value).strip()
-            moment = datetime.fromisoformat(text)
-            if re.fullmatch(r"\d{4}-\d\d-\d\d", text):
-                moment = datetime.combine(moment, time(23, 59, 59))
-        except ValueError:
-            found = moodle_moment(text)
-            if found is None:
-                raise BotschoolError(f"'{value}' is not a time: write 2026-11-20 23:59.") from None
-            moment = found
-    return moment if moment.tzinfo is None else moment.astimezone().replace(tzinfo=None)
-
-
-def moodle_moment(text: str) -> datetime | None:
-    """Return the time of a text such as "Friday, 20 November 2026, 9:14 PM"; None for others."""
-    for pattern in ("%A, %d %B %Y, %I:%M %p", "%A, %d %B %Y, %H:%M", "%A, %B %d, %Y, %I:%M %p"):
-        try:
-            return datetime.strptime(text.strip(), pattern)
-        except ValueError:
-            continue
-    return None
+    moment = read_moment(value) if isinstance(value, str) else None
+    if moment is None:
+        raise BotschoolError(f"'{value}' is not a time: write 2026-11-20 23:59.")
+    return moment

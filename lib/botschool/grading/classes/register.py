@@ -2,47 +2,40 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections import Counter, defaultdict
+from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from botschool.errors import BotschoolErrors
+from botschool.errors import BotschoolError, BotschoolErrors
 from botschool.grading.classes.candidate import Choice
-from botschool.grading.classes.export import Person
+from botschool.grading.classes.download import Person
 from botschool.grading.classes.files import File, listed
-from botschool.grading.classes.identity import Known, Student, ask, letters
-from botschool.grading.classes.layouts import told_by
-from botschool.grading.classes.policy import moodle_moment
+from botschool.grading.classes.join import Values, clean, folded, join
+from botschool.grading.classes.roster import Answers, Named, Student
 from botschool.grading.classes.rules import Policy, tidy
+from botschool.grading.classes.times import told_by
 from botschool.grading.classes.wall import Broken, walled
+from botschool.grading.declare.checks import plain
 from botschool.grading.declare.exercise import Number, called
 
-_NUMBERS = ("participant", "user", "sid", "submission")
-"""Ids that distinguish people of one name."""
 MISSING = "Nothing was handed in."
+MOST_LINES = 20
+"""People whom the command lists in lines of their own."""
 
 
 @dataclass
 class Row:
     """A person of the class: a row of its table."""
 
-    number: int
-    """Among the known people."""
-    name: str
-    about: Student
-    """All that tables and downloads say of the person."""
-    student: Student | None
-    """The person on the class list."""
+    student: Student
     parts: list[Person] = field(default_factory=list)
     """What the person handed in: one for each download."""
     group: list[tuple[Number, str, Person]] = field(default_factory=list)
     """What members of the person's group handed in: the exercise (0: all), who, and what."""
-    keys: list[str] = field(default_factory=list)
-    """The words by which the settings may name the person."""
     page: str = ""
     """The name of the feedback page; "" for somebody who handed in nothing."""
     results: list[dict[str, Any]] = field(default_factory=list)
@@ -50,6 +43,15 @@ class Row:
     """The points of all exercises; None if one of them was not graded."""
     said: list[str] = field(default_factory=list)
     """Sentences on the term's total."""
+
+    @property
+    def name(self) -> str:
+        return self.student.name
+
+    @property
+    def keys(self) -> list[str]:
+        """Return the words by which the settings may name the person."""
+        return sorted(self.student.words)
 
     def handed(self, number: Number) -> list[tuple[str, Person]]:
         """Return the submissions of an exercise; the group's if the person has none."""
@@ -64,7 +66,8 @@ class Row:
     def is_missing(self) -> bool:
         """Return whether neither the person nor the group handed anything in."""
         numbers = {number for _, _, part in self.group for number in part.files}
-        return not self.parts and not any(map(self.handed, numbers))
+        nothing = all(part.is_empty for part in self.parts)
+        return nothing and not any(map(self.handed, numbers))
 
     @property
     def notes(self) -> list[str]:
@@ -75,42 +78,112 @@ class Members:
     """The people of a class, from its list, the platform's table, and what they handed in."""
 
     def __init__(self, policy: Policy) -> None:
-        """Start with the tables."""
+        """Start with the tables. Raises BotschoolErrors."""
         self.policy = policy
-        self.roster = policy.people or policy.gradebook
         self.rows: list[Row] = []
         self.notes: list[str] = []
-        self._known = Known(self.policy.answers)
-        self._of_book: dict[int, Student] = {}
-        self._sheet: dict[str, int] = {}
-        """Moodle's number -> row of the worksheet."""
-        if self.roster:
-            self._known.add(self.roster.students, "the class list")
-        self._book = policy.gradebook or self.roster
-        if book := self._book:
-            found = self._known.add(book.students, book.table.path.name)
-            self._of_book = dict(zip(found, book.students, strict=True))
-            self._sheet = {
-                row.participant: row.row
-                for each in book.students
-                for row in (each, *each.again)
-                if row.participant
-            }
+        self.how: list[str] = []
+        """Sentences on what was joined by which values."""
+        self.doubts: list[tuple[str, str]] = []
+        """People whom no table surely names: the name in the download, and why."""
+        people, book = policy.people, policy.gradebook
+        self.has_list = bool(people or book)
+        self.students = list((people or book).students) if self.has_list else []
+        self._answers = policy.answers or Answers(Path())
+        self.notes += self._answers.notes
+        if people and book and people is not book:
+            self._add_book()
+        elif people and not book:
+            for student in self.students:
+                student.rows = []
+
+    def _add_book(self) -> None:
+        """Join the platform's table to the class list."""
+        book, file = self.policy.gradebook, self.policy.gradebook.table.path.name
+        for student in self.students:
+            student.rows = []
+        there = [student.values for student in book.students]
+        joined = join(*_shown(self.students), there, what="columns")
+        self.how += [f"{file}: {joined.said}."] * bool(joined.said)
+        for at, (own, row) in enumerate(zip(book.students, joined.rows, strict=True)):
+            more = {f"{label} of {file}": text for label, text in own.values.items()}
+            if row is None:
+                own.listed = False
+                own.values = more
+                self.students.append(own)
+                if at in joined.why:
+                    self.notes.append(f"{file}: who is {plain(own.name)}? {joined.why[at]}.")
+                continue
+            known = self.students[row]
+            known.values = known.values | more
+            known.rows = own.rows
+
+    def join(
+        self,
+        entries: Sequence[Values],
+        names: Sequence[Collection[str]],
+        where: str,
+        loose: Sequence[bool] = (),
+        what: str = "names",
+    ) -> list[Student | None]:
+        """Return the student of each entry, by PEOPLE and by equal values.
+
+        names: of each entry, by which PEOPLE may name it. where: the download.
+        """  # fmt: skip
+        found: list[Student | None] = [self._answered(own) for own in names]
+        left = [at for at, student in enumerate(found) if student is None]
+        if not self.students or not left:
+            return found
+        own_loose = [loose[at] for at in left] if loose else ()
+        joined = join(*_shown(self.students), [entries[at] for at in left], own_loose, what)
+        if joined.said:
+            self.how.append(f"{where or 'Submissions'}: {joined.said}.")
+        for at, row in zip(left, joined.rows, strict=True):
+            found[at] = None if row is None else self.students[row]
+        why = {left[at]: reason for at, reason in joined.why.items()}
+        for at in left:
+            if found[at] is None and (self.has_list or at in why):
+                self.doubts.append((sorted(names[at], key=len)[-1], why.get(at, "")))
+        return found
+
+    def _answered(self, names: Collection[str]) -> Student | None:
+        """Return whom PEOPLE names for an entry. Raises BotschoolError for an unknown person."""
+        own = dict.fromkeys(clean(each) for name in names for each in (name, plain(name)))
+        words = [self._answers.of[name] for name in own if name in self._answers.of]
+        if not words or not self.students:
+            return None
+        student = Named(self.students).find(words[0])
+        if student is None:
+            raise BotschoolError(
+                f"{self._answers.path} names {plain(words[0])}, who is nobody or several: write a "
+                "value of the student's row that nobody else has."
+            )
+        return student
 
     @property
     def unknown(self) -> list[str]:
         """Return the names of people who are not on the class list, if there is one."""
-        return [row.name for row in self.rows if self.roster and row.student is None]
+        return [row.name for row in self.rows if self.has_list and not row.student.listed]
 
     @property
     def missing(self) -> list[Row]:
         return [row for row in self.rows if row.is_missing]
 
     def lacking(self) -> list[str]:
-        """Return sentences on people who handed in nothing, or are not on the class list."""
+        """Return sentences on people who handed in nothing, or whom no table names."""
         nothing, strangers = listed([row.name for row in self.missing]), listed(self.unknown)
         said = [f"Nothing from: {nothing}."] if nothing else []
-        return said + ([f"Not on the roster: {strangers}."] if strangers else [])
+        said += [f"Not on the roster: {strangers}."] if strangers else []
+        if self.doubts:
+            said.append(
+                f"Whose these are, write into {self._answers.path} (its head: identifier,folder):"
+            )
+            for name, why in self.doubts[:MOST_LINES]:
+                reason = f"   ({why})" if why else ""
+                said.append(f"  {self._answers.line(plain(name))}{reason}")
+            more = len(self.doubts) - MOST_LINES
+            said += [f"  and {more} more."] if more > 0 else []
+        return said
 
     @property
     def maximum(self) -> float:
@@ -123,26 +196,6 @@ class Members:
         mean = sum(totals) / len(totals) if totals else 0.0
         return f"{mean:.1f} of {self.maximum} points on average" if totals else ""
 
-    def row(self, number: int, name: str) -> Row:
-        """Return a row for a person; name: of one who is not on the class list."""
-        students = self.roster.students if self.roster else []
-        student = students[number] if number < len(students) else None
-        about = self._known.people[number]
-        ids = {each.id.casefold() for each in self._known.people}
-        bare = [each.partition(" ")[2] for each in about.numbers()]
-        keys = [*about.called(), *(each for each in bare if each not in ids)]
-        for pair in self.policy.answers.items():  # another email of the same person
-            both = [each.casefold() for each in pair]
-            keys += both if any(each in keys for each in both) else []
-        shown = student.name if student else name
-        return Row(number, shown, about, student, keys=list(dict.fromkeys(keys)))
-
-    def ask(self) -> None:
-        """Put doubtful people into the table in the class's folder."""
-        doubts = self._known.doubts
-        self.doubtful = [each for each in doubts if not each.taken]
-        self.notes += ask(self.policy.folder, doubts) if self.policy.folder else []
-
     def check_names(self, numbers: Collection[Number]) -> None:
         """Raise BotschoolErrors with what is wrong in the settings, and whom they cannot mean.
 
@@ -150,35 +203,24 @@ class Members:
         """
         errors, policy = list(self.policy.errors), self.policy
         counts = Counter(key for row in self.rows for key in row.keys)
-        members = [each for group in policy.groups.values() for each in group if self.roster]
-        for name in dict.fromkeys([*policy.named(numbers), *members]):
+        for name in policy.named(numbers, with_groups=self.has_list):
             place = policy.places.get(name, "The class's settings:")
             if counts[name] == 0:
                 errors.append(
-                    f"{place} names {name}, who is not in the class: write the id, email, user "
-                    "name or name of a student."
+                    f"{place} names {name}, who is not in the class: write the id, email or name "
+                    "as it stands in the class's table."
                 )
             elif counts[name] > 1:
                 errors.append(
                     f"{place} names {name}, which is the name of {counts[name]} students: write "
-                    "the id or the email."
+                    "a value that nobody else has."
                 )
         if errors:
             raise BotschoolErrors(errors)
 
-    def book_rows(self) -> Iterator[tuple[Student, Row]]:
-        """Yield each student of the gradebook with the row."""
-        for row in self.rows:
-            if student := self._of_book.get(row.number):
-                yield student, row
 
-
-def _entry(person: Person, row: int) -> Student:
-    """Return what a download says of a person."""
-    ids = person.ids
-    canvas = ids.get("user", "") if person.platform == "canvas" else ""
-    mail, participant = ids.get("email", ""), ids.get("participant", "")
-    return Student(person.student, ids.get("sid", ""), mail, "", participant, canvas, row)
+def _shown(students: Sequence[Student]) -> tuple[list[Values], list[str]]:
+    return [student.values for student in students], [student.name for student in students]
 
 
 class Register(Members):
@@ -192,43 +234,75 @@ class Register(Members):
         """Match them. Raises BotschoolErrors, with all that is wrong in the settings."""
         super().__init__(policy)
         self._told: dict[File, datetime | None] = {}
-        found = self._numbered(people)
-        students = range(len(self.roster.students) if self.roster else 0)
-        shown = Counter(own[0].student for own in found.values())
-        for number in dict.fromkeys([*found, *students]):
-            parts = found.get(number, [])
-            row = self.row(number, _name(parts[0], shown) if parts else "")
-            row.parts = parts
-            self.rows.append(row)
+        rows: dict[int, Row] = {}
+        for student, one in self._matched(people):
+            rows.setdefault(id(student), Row(student)).parts.append(one)
+        for student in self.students:
+            if student.listed and id(student) not in rows:
+                rows[id(student)] = Row(student)
+        self.rows = list(rows.values())
+        self._distinguish()
+        self._tell_times()
         self.check_names(people[0].choices if people else ())
         self._join_groups()
-        self.ask()
 
-    def _numbered(self, people: list[Person]) -> dict[int, list[Person]]:
-        """Return what each known person has handed in, by the person's number."""
-        lists = [each for each in (self.policy.gradebook, self.policy.people) if each]
-        found, rows = dict[int, list[Person]](), iter(range(-1, -1 - len(people), -1))
+    def _matched(self, people: list[Person]) -> list[tuple[Student, Person]]:
+        """Return each entry with its student, a new one for whom no table names."""
+        found = []
         for section in dict.fromkeys(one.section for one in people):
             own = [one for one in people if one.section == section]
-            entries = [_entry(one, next(rows)) for one in own]
-            matched = [next(filter(None, (list.match(one) for list in lists)), None) for one in own]
-            counts = Counter(matched)
-            taken = []
-            for one, entry, student in zip(own, entries, matched, strict=True):
-                number = one.ids.get("participant") or one.ids.get("user")
-                shared = student and counts[student] > 1 and number
-                # of two people of one name the class list has one
-                other = shared and number not in (student.participant, student.canvas)
-                taken.append(entry if other or not student else student)
-
-            def clash(index: int, at: int, own: list[Person] = own) -> bool:
-                return any(_both_did(own[index], other) for other in found.get(at, ()))
-
-            numbers = self._known.add(taken, section or "this download", clash=clash)
-            for one, entry, at in zip(own, entries, numbers, strict=True):
-                found.setdefault(at, []).append(one)
-                self._known.learn(at, entry)
+            names = [{one.key, one.student, *one.names} for one in own]
+            students = self.join(
+                [one.values for one in own], names, section, [one.loose for one in own]
+            )
+            shown = Counter(one.student for one in own)
+            new = []
+            for one, student in zip(own, students, strict=True):
+                if student is None:
+                    name = one.key if shown[one.student] > 1 else one.student
+                    values = one.values | {"the name": one.student}
+                    student = Student(plain(name), values, listed=False)
+                    new.append(student)
+                found.append((student, one))
+            self.students += new
         return found
+
+    def _distinguish(self) -> None:
+        """Give those who are on no list, and have another's name, a name of their own."""
+        counts = Counter(folded(row.name) for row in self.rows)
+        for row in self.rows:
+            if counts[folded(row.name)] > 1 and row.parts and not row.student.listed:
+                row.student.name = plain(f"{row.name} ({row.parts[0].key})")
+
+    def _tell_times(self) -> None:
+        """Take times, extensions and groups from Moodle's worksheet, for its own assignment."""
+        book = self.policy.gradebook or self.policy.people
+        if book is None or book.kind != "moodle":
+            return
+        of_rows = {id(s): s.rows for s in self.students} if self.policy.gradebook else {}
+        for row in self.rows:
+            lines = of_rows.get(id(row.student), [])
+            for part in row.parts:
+                parts = {folded(text) for text in part.values.values()}
+                for line in [at for at in lines if book.number(at) in parts]:
+                    part.submitted = part.submitted or book.times.get(line)
+                    part.extended = book.extensions.get(line)
+        if not self.policy.groups:
+            self._tell_groups(book, of_rows)
+        self.notes += [note for note in book.notes if note not in self.notes]
+
+    def _tell_groups(self, book: Any, of_rows: Mapping[int, list[int]]) -> None:
+        """Read the groups in the column whose cells begin the names of folders ("Team A-Ada")."""
+        for column in book.columns[1:]:
+            head, members, fits = book.heads[column], defaultdict(list), []
+            for row in self.rows:
+                team = row.student.cells.get(head, "") if of_rows.get(id(row.student)) else ""
+                if team:
+                    members[team].append(row)
+                    fits += [one.key.startswith(f"{team}-") for one in row.parts]
+            if fits and all(fits):
+                for team, rows in members.items():
+                    self._share(team, 0, rows, [])
 
     def _join_groups(self) -> None:
         """Give each member what the others, or the group by its own name, handed in."""
@@ -236,16 +310,21 @@ class Register(Members):
             rows = [row for row in self.rows if any(key in row.keys for key in members)]
             named = [
                 row for row in self.rows
-                if row.student is None and row not in rows and _is_of(row, group)
+                if not row.student.listed and row not in rows and _is_of(row, group)
             ]  # fmt: skip
             self.rows = [row for row in self.rows if row not in named]
-            for row in rows:
-                others = [other for other in [*rows, *named] if other is not row]
-                row.group += [
-                    (number, f"Handed in by {other.name}, group {group}.", part)
-                    for other in others
-                    for part in other.parts
-                ]
+            names = {name for row in named for part in row.parts for name in part.names}
+            self.doubts = [doubt for doubt in self.doubts if doubt[0] not in names]
+            self._share(group, number, rows, named)
+
+    def _share(self, group: str, number: Number, rows: list[Row], named: list[Row]) -> None:
+        for row in rows:
+            others = [other for other in [*rows, *named] if other is not row]
+            row.group += [
+                (number, f"Handed in by {other.name}, group {group}.", part)
+                for other in others
+                for part in other.parts
+            ]
 
     def moment(self, person: Person, number: Number) -> datetime | None:
         """Return when an exercise was handed in, if the platform or the files tell."""
@@ -256,9 +335,6 @@ class Register(Members):
                 with suppress(Broken):
                     self._told[file] = walled(told_by, file)
             return self._told.get(file)
-        line, book = self._sheet.get(person.ids.get("participant", "")), self._book
-        if person.submitted is None and line is not None and book:
-            return moodle_moment(book.table.get(book.table.rows[line], "submitted"))
         return person.submitted
 
     def result(
@@ -279,9 +355,10 @@ class Register(Members):
             notes = [*choice.notes, *filter(None, [said])]
             result = done[number, choice.file] | {"notes": notes, "file": choice.file}
             moment = self.moment(part, number)
-            found.append(self.policy.apply(result, row.keys, moment, part.late))
+            own = part if part in row.parts or not row.parts else row.parts[0]
+            found.append(self.policy.apply(result, row.keys, moment, part.late, own.extended))
         if not found:
-            choices = [part.choices[number] for part in row.parts]
+            choices = [part.choices[number] for part in row.parts if not part.is_empty]
             choice = next(iter(choices), Choice(problem=MISSING, unread=row.is_missing))
             result = nothing(choice.problem, not choice.unread) | {"notes": choice.notes}
             return self.policy.apply(result, row.keys, None, False)
@@ -295,11 +372,17 @@ class Register(Members):
     def finish(self, row: Row) -> None:
         """Compute a row's total."""
         if all(result["graded"] for result in row.results):
-            row.total = tidy(self.policy.weighed(row.results)[0])
+            row.total = tidy(self._sums(row)[0])
 
     @property
     def maximum(self) -> float:
-        return tidy(self.policy.weighed(self.rows[0].results)[1])
+        return tidy(self._sums(self.rows[0])[1])
+
+    def _sums(self, row: Row) -> tuple[float, float]:
+        """Return points and maximum: an exercise's own ones if it is alone, else weighted sums."""
+        if len(row.results) == 1:
+            return row.results[0]["points"], row.results[0]["max_points"]
+        return self.policy.weighed(row.results)
 
     def without_effect(self, asked: list[Number], known: Collection[Number]) -> list[str]:
         """Return sentences on settings that cannot be applied.
@@ -330,23 +413,7 @@ class Register(Members):
         return said
 
 
-def _name(one: Person, shown: Counter) -> str:
-    """Return the name of a person who is on no list; people of one name get a number."""
-    numbers = [one.ids[each] for each in _NUMBERS if one.ids.get(each)]
-    return f"{one.student} ({numbers[0]})" if shown[one.student] > 1 and numbers else one.student
-
-
-def _both_did(one: Person, other: Person) -> bool:
-    """Return whether two submissions hold work on the same exercise."""
-    common = one.files.keys() & other.files.keys()
-    return any(one.choices[each].changed and other.choices[each].changed for each in common)
-
-
 def _is_of(row: Row, group: str) -> bool:
-    """Return whether a submission has the name of a group: Canvas's, or ASSIGNMENT-GROUP."""
-    name = letters(group).replace(" ", "")
-    shown = [name_of for part in row.parts for name_of in (part.student, part.folder)]
-    return any(
-        letters(each).replace(" ", "") == name or each.casefold().endswith(f"-{group.casefold()}")
-        for each in shown
-    )
+    """Return whether a submission has the name of a group as a part of its own."""
+    names = {folded(group), folded(group).replace(" ", "")}
+    return any(folded(text) in names for part in row.parts for text in part.values.values())

@@ -13,7 +13,6 @@ from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
 
-from botschool.grading.classes.identity import Roster
 from botschool.grading.declare.exercise import Number
 
 _UNITS = {"hour": timedelta(hours=1), "day": timedelta(days=1), "week": timedelta(weeks=1)}
@@ -53,12 +52,12 @@ class Adjustment:
 
 @dataclass
 class Policy:
-    """A class's settings and tables; keys of people are words of Student.called."""
+    """A class's settings and tables; keys of people are Student.words."""
 
     roster: Path | None = None
-    people: Roster | None = None
-    """The class list."""
-    gradebook: Roster | None = None
+    people: Any = None
+    """The class list: a roster.Roster, as the next one."""
+    gradebook: Any = None
     """The platform's table, to fill in."""
     column: str = ""
     """The column in Canvas's gradebook."""
@@ -78,12 +77,10 @@ class Policy:
     syntax: str = ""
     """What a syntax error costs: EVERYTHING, else only what stands there."""
     path: Path | None = None
-    folder: Path | None = None
-    """The class's, in which the table of doubtful people is."""
     tables: list[Path] = field(default_factory=list)
     """Tables of adjustments."""
-    answers: dict[str, str] = field(default_factory=dict)
-    """Who doubtful people are, as in identity.PEOPLE."""
+    answers: Any = None
+    """Whose entries of a download are: a roster.Answers."""
     places: dict[Any, str] = field(default_factory=dict)
     """Key of a person, or number of an exercise -> where the settings name it."""
     errors: list[str] = field(default_factory=list)
@@ -98,11 +95,15 @@ class Policy:
             found += [(name, key, value) for key, value in pairs if key in numbers]
         return found
 
-    def named(self, numbers: Iterable[Number]) -> list[str]:
+    def named(self, numbers: Iterable[Number], with_groups: bool) -> list[str]:
         """Return the keys of people whom rules for some exercises name."""
         wanted = {0, *numbers}
         people = (self.extensions, self.adjustments, self.submitted)
-        return list(dict.fromkeys(one[0] for each in people for one in self._own(each, wanted)))
+        found = [one[0] for each in people for one in self._own(each, wanted)]
+        if with_groups:
+            groups = [each for (_, number), each in self.groups.items() if number in wanted]
+            found += [member for group in groups for member in group]
+        return list(dict.fromkeys(found))
 
     def digest(self, numbers: Iterable[Number]) -> str:
         """Return a text that changes if a rule for one of these exercises changes."""
@@ -120,11 +121,17 @@ class Policy:
         return number in self.due or any(number in each for each in self.extensions.values())
 
     def apply(
-        self, result: dict[str, Any], names: list[str], moment: datetime | None, marked: bool
+        self,
+        result: dict[str, Any],
+        names: list[str],
+        moment: datetime | None,
+        marked: bool,
+        extended: datetime | None = None,
     ) -> dict[str, Any]:
-        """Return a result with deadline and adjustments; names: as returned by Student.called.
+        """Return a result with deadline and adjustments; names: the person's words.
 
-        moment: when it was handed in. marked: whether the platform marks it as late.
+        moment: when it was handed in. marked: whether the platform marks it as late. extended: the
+        platform's own deadline for this person, which counts if class.yaml names none.
         """
         number = result["exercise"]
         points, notes = float(result["points"]), []
@@ -132,6 +139,7 @@ class Policy:
             times = self.submitted.get(name, {})
             moment = times.get(number, times.get(0, moment))
         due = general = self.due.get(number)
+        due = extended if due and extended else due
         for name in names:
             due = self.extensions.get(name, {}).get(number, due)
         if moment:

@@ -11,14 +11,15 @@ import io
 import itertools
 import keyword
 import math
+import re
 import tokenize
+import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from html import escape
 from types import MappingProxyType
 
-from botschool.grading.classes.identity import words
 from botschool.grading.classes.wall import Broken, walled
 from botschool.grading.declare.checks import plain
 from botschool.grading.declare.exercise import Number, called
@@ -140,6 +141,11 @@ def _lines(own: dict[tuple[str, ...], set[int]], keys: Iterable[tuple[str, ...]]
     return frozenset(line for key in keys for line in own[key])
 
 
+def _words(text: str) -> list[str]:
+    """Return the words of a text, sorted, without capitals and signs."""
+    return sorted(re.findall(r"\w+", unicodedata.normalize("NFC", text).casefold()))
+
+
 @dataclass(frozen=True)
 class Sheet:
     """A laboratory's sheet, as it was handed in."""
@@ -156,7 +162,9 @@ class Sheet:
     def sentences(self) -> set[str]:
         """Return the long answers of the prediction, without signs and capital letters."""
         return {
-            own for each in self.prediction.values() if len((own := words(each)).split()) >= LONG
+            own
+            for each in self.prediction.values()
+            if len((own := " ".join(_words(each))).split()) >= LONG
         }
 
 
@@ -173,10 +181,10 @@ def doubtful(sheets: Sequence[Sheet], people: Iterable[str]) -> list[Doubt]:
 
     people: the names of all students. A sheet may hold a part of its student's name.
     """
-    known = {person: set(words(person).split()) for person in people}
+    known = {person: set(_words(person)) for person in people}
     found = []
     for sheet in sheets:
-        named, own = set(words(sheet.name).split()), set(words(sheet.student).split())
+        named, own = set(_words(sheet.name)), set(_words(sheet.student))
         others = [person for person, parts in known.items() if named <= parts]
         if named and not named <= own and others:
             said = (

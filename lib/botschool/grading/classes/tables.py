@@ -1,4 +1,4 @@
-"""Read and write CSV files of other programs, with any delimiter, encoding and header."""
+"""Read and write CSV files of other programs, with any delimiter and encoding."""
 
 from __future__ import annotations
 
@@ -12,28 +12,12 @@ from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.classes.texts import decoded
+from botschool.grading.classes.unpack import kind_of
 from botschool.screen import plain
 
 MAX_TABLE = 20 * 2**20
-
-COLUMNS = {
-    "name": ("name", "fullname", "student", "studentname", "displayname"),
-    "first": ("firstname", "first", "givenname", "forename", "vorname"),
-    "last": ("lastname", "last", "surname", "familyname", "nachname", "name2"),
-    "id": (
-        "id", "idnumber", "studentid", "sid", "sisuserid", "studentnumber", "matriculationnumber",
-        "matrikelnummer", "number",
-    ),
-    "mail": ("email", "emailaddress", "mail", "emailadresse"),
-    "user": ("username", "user", "login", "loginid", "sisloginid", "github", "githubusername"),
-    "participant": ("identifier", "participant"),
-    "exercise": ("exercise", "assignment"),
-    "points": ("points", "adjustment", "change"),
-    "reason": ("reason", "comment", "note", "notes"),
-    "group": ("group", "groupname", "team"),
-    "submitted": ("submitted", "lastmodifiedsubmission", "submissiontime", "time", "date"),
-}  # fmt: skip
-"""Meaning of a column -> letters and digits of its heads in lower case."""
+_SEPARATOR = re.compile(r"\s*\"?sep=(.)\"?[,;\t]*\r?\n", re.IGNORECASE)
+"""Excel's first line, which names the delimiter."""
 
 
 @dataclass
@@ -47,18 +31,19 @@ class Table:
     marked: bool = False
     """Whether the file begins with a byte order mark."""
 
-    def column(self, meaning: str) -> int | None:
-        """Return the index of the first column with a meaning of COLUMNS, or with a name."""
-        heads = [re.sub(r"[\W_]", "", head.lower()) for head in self.head]
-        for known in COLUMNS.get(meaning, (meaning,)):
-            if known in heads:
-                return heads.index(known)
-        return None
+    def column(self, *names: str) -> int | None:
+        """Return the index of the first column with one of these heads, in any capitals."""
+        heads = [head.strip().casefold() for head in self.head]
+        return next((heads.index(name) for name in names if name in heads), None)
 
-    def get(self, row: list[str], meaning: str) -> str:
-        """Return the cell, or "" if there is no such column."""
-        index = self.column(meaning)
-        return row[index].strip() if index is not None and index < len(row) else ""
+    def get(self, row: list[str], *names: str) -> str:
+        """Return the cell of the first such column, or "" if there is none."""
+        return self.cell(row, self.column(*names))
+
+    @staticmethod
+    def cell(row: list[str], column: int | None) -> str:
+        """Return a cell; "" if the row is too short."""
+        return row[column].strip() if column is not None and column < len(row) else ""
 
     def text(self) -> bytes:
         """Return the file's present content."""
@@ -77,12 +62,16 @@ def read_table(path: Path) -> Table:
         raise BotschoolError(f"{path} cannot be read ({error.strerror}).") from None
     if len(content) > MAX_TABLE:
         raise BotschoolError(f"{path} is larger than {MAX_TABLE // 2**20} MB: is it a table?")
+    if kind_of(content[:512], path.name):
+        raise BotschoolError(f"{path} is no CSV file: open it in Excel and save it as CSV (UTF-8).")
     text, encoding = decoded(content)
+    named = _SEPARATOR.match(text)
+    text = text[named.end() :] if named else text
     first = text.lstrip("\r\n").partition("\n")[0]
-    delimiter = max(",;\t", key=first.count)
+    delimiter = named[1] if named else max(",;\t", key=first.count)
     try:
         rows = list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter))
-    except csv.Error as error:
+    except (csv.Error, TypeError) as error:
         raise BotschoolError(f"{path} is not a readable table ({error}).") from None
     rows = [row for row in rows if any(cell.strip() for cell in row)]
     if not rows:
@@ -96,6 +85,13 @@ def made_table(rows: Iterable[Sequence[Any]]) -> bytes:
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerows([[safe_cell(c) if isinstance(c, str) else c for c in row] for row in rows])
     return stream.getvalue().encode("utf-8-sig", "replace")
+
+
+def number_in(text: str, most: float) -> float | None:
+    """Return the number in a cell, with a point or a comma; None for others, or above `most`."""
+    found = re.fullmatch(r"\s*(\d+)(?:[.,](\d*))?\s*", text, re.ASCII)
+    number = float(f"{found[1]}.{found[2] or 0}") if found else most + 1
+    return number if number <= most else None
 
 
 def check_own(path: Path, sign: str, maker: str) -> None:

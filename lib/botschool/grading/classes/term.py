@@ -5,18 +5,16 @@ Each output of grade-all keeps its results in RECORD, with all that is known of 
 
 from __future__ import annotations
 
-import itertools
 import json
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from botschool.console import Console
 from botschool.errors import BotschoolError
 from botschool.grading.classes.files import listed
-from botschool.grading.classes.identity import Student
 from botschool.grading.classes.register import Members, Row
+from botschool.grading.classes.roster import Student
 from botschool.grading.classes.rules import TOTAL, Policy, tidy
 from botschool.grading.classes.tables import check_own, made_table
 from botschool.grading.declare.exercise import Number, called
@@ -38,8 +36,8 @@ class Output:
     settings: str
     """The path of its class.yaml; "" for none."""
     rules: str
-    people: list[tuple[Student, str, dict[Number, dict[str, Any]]]]
-    """Each person, the name to show, and the result of each exercise."""
+    people: list[tuple[Student, list[str], dict[Number, dict[str, Any]]]]
+    """Each person, what the downloads call the person, and the result of each exercise."""
 
     @property
     def numbers(self) -> set[Number]:
@@ -51,8 +49,10 @@ def record(rows: list[Row], policy: Policy, rules: str) -> bytes:
     kept = ("exercise", "title", "points", "max_points", "graded", "problem", "notes")
     people = [
         {
-            "about": asdict(row.about),
             "name": row.name,
+            "values": row.student.values,
+            "listed": row.student.listed,
+            "names": [name for part in row.parts for name in part.names],
             "results": [
                 {key: result[key] for key in kept}
                 | {"handed in": bool(row.handed(result["exercise"]))}
@@ -74,7 +74,9 @@ def read_output(folder: Path) -> Output:
         people = []
         for person in made["people"]:
             results = {result["exercise"]: _EMPTY | result for result in person["results"]}
-            people.append((_student(person["about"]), str(person["name"]), results))
+            values = {str(label): str(text) for label, text in person["values"].items()}
+            student = Student(str(person["name"]), values, listed=bool(person["listed"]))
+            people.append((student, [student.name, *map(str, person["names"])], results))
         return Output(folder, str(made["class"]), str(made["rules"]), people)
     except FileNotFoundError:
         raise BotschoolError(
@@ -84,10 +86,6 @@ def read_output(folder: Path) -> Output:
         raise BotschoolError(f"{path} cannot be read ({error.strerror}).") from None
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
         raise BotschoolError(f"{path} is damaged: grade again, with the same -o.") from None
-
-
-def _student(about: Mapping[str, Any]) -> Student:
-    return Student(**{**about, "again": tuple(map(_student, about["again"]))})
 
 
 class Term(Members):
@@ -102,29 +100,28 @@ class Term(Members):
             for _, _, results in output.people
             for number, result in results.items()
         }
-        numbered = itertools.count(1)
         found: dict[int, list[dict[Number, dict[str, Any]]]] = {}
-        shown: dict[int, str] = {}
         for output in outputs:
-            people = [replace(about, row=next(numbered)) for about, _, _ in output.people]
-
-            def clash(index: int, at: int, output: Output = output) -> bool:
-                mine = _handed(output.people[index][2])
-                return any(mine & _handed(each) for each in found.get(at, ()))
-
-            numbers = self._known.add(people, str(output.folder), clash=clash)
-            for at, (_, name, results) in zip(numbers, output.people, strict=True):
-                shown.setdefault(at, name)
-                found.setdefault(at, []).append(results)
-        students = range(len(self.roster.students) if self.roster else 0)
-        for number in dict.fromkeys([*students, *found]):
-            row = self.row(number, shown.get(number, ""))
-            row.results = [self._best(each, found.get(number, [])) for each in self.exercises]
-            self.rows.append(row)
+            people = [student for student, _, _ in output.people]
+            names = [own for _, own, _ in output.people]
+            values = [student.values for student in people]
+            joined = self.join(values, names, str(output.folder), what="columns")
+            for own, student, (_, _, results) in zip(people, joined, output.people, strict=True):
+                if student is None:
+                    own.listed = own.listed and not self.has_list
+                    self.students.append(student := own)
+                elif not self.has_list:
+                    student.values = own.values | student.values
+                found.setdefault(id(student), []).append(results)
+        for student in self.students:
+            if student.listed or id(student) in found:
+                row = Row(student)
+                own = found.get(id(student), [])
+                row.results = [self._best(each, own) for each in self.exercises]
+                self.rows.append(row)
         self.check_names([TOTAL])
         for row in self.rows:
             self.finish(row)
-        self.ask()
 
     def _best(self, number: Number, results: list[dict[Number, dict[str, Any]]]) -> dict[str, Any]:
         """Return the best result of an exercise; one without points for who handed in nothing."""
@@ -154,19 +151,17 @@ class Term(Members):
         return [row for row in self.rows if not any(r["handed in"] for r in row.results)]
 
 
-def _handed(results: Mapping[Number, dict[str, Any]]) -> set[Number]:
-    return {number for number, result in results.items() if result["handed in"]}
-
-
 def table(term: Term) -> bytes:
     """Return the table of the term: a row for each person."""
     heads = [called(number).lower() for number in term.exercises]
-    rows: list[list[Any]] = [["student", "total", "maximum", *heads, "notes", "id", "email"]]
+    own = ["student", "total", "maximum", *heads, "notes"]
+    more = dict.fromkeys(h for row in term.rows for h in row.student.cells if h not in own)
+    rows: list[list[Any]] = [[*own, *more]]
     for row in term.rows:
         points = [tidy(r["points"]) if r["graded"] else "" for r in row.results]
         notes = " ".join([*map(_said, row.results), *row.said])
         total = "" if row.total is None else row.total
-        about = [row.about.id, row.about.mail]
+        about = [row.student.cells.get(head, "") for head in more]
         rows.append([row.name, total, term.maximum, *points, notes, *about])
     return made_table(rows)
 
@@ -179,7 +174,7 @@ def _said(result: dict[str, Any]) -> str:
 def say_term(console: Console, term: Term, outputs: list[Output]) -> bool:
     """Print what the instructor must know; True if nothing is left to do."""
     counts = [f"{len(term.rows)} people, {len(term.exercises)} exercises", term.average()]
-    lines = [", ".join(filter(None, counts)) + ".", *term.lacking()]
+    lines = [", ".join(filter(None, counts)) + ".", *term.how, *term.lacking()]
     lacking = ((row, r) for row in term.rows for r in row.results if not r["graded"])
     ungraded = list(dict.fromkeys(row.name for row, result in lacking if result["handed in"]))
     if ungraded:
@@ -192,7 +187,7 @@ def say_term(console: Console, term: Term, outputs: list[Output]) -> bool:
             )
     for line in [*lines, *term.notes]:
         console.print(line, markup=False, soft_wrap=True)
-    return not (ungraded or term.missing or term.unknown or term.doubtful)
+    return not (ungraded or term.missing or term.unknown or term.doubts)
 
 
 def write_term(term: Term, output: Path, more: dict[str, bytes]) -> list[Path]:
