@@ -11,9 +11,6 @@ from pathlib import Path
 import pytest
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.export import Person
-from botschool.grading.classes.identity import read_roster
-from botschool.grading.classes.outputs import canvas_gradebook, moodle_worksheet
 from botschool.grading.classes.policy import LateRule, read_policy
 from botschool.grading.classes.similar import Program, similar_pairs, similarity_page
 from botschool.grading.classes.statistics import by_task, hardest, statistics_page
@@ -49,125 +46,6 @@ def roster(tmp_path, text, name="students.csv"):
     path = tmp_path / name
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
     return path
-
-
-# --- rosters
-def test_heads_and_points_that_fuzzers_found(tmp_path):
-    with pytest.raises(BotschoolError) as error:
-        read_roster(roster(tmp_path, '"a\nb",c\n1,2\n'))
-    assert "\n" not in str(error.value)
-    for points in ("1e309", "nan", "-5", "1e300"):
-        text = f"Student,ID,Section,Ex (77)\n    Points Possible,,,{points}\nAda,400,A,\n"
-        book = read_roster(roster(tmp_path, text))
-        table = canvas_gradebook(book, {book.students[0]: (80.0, "")}, 100.0, "Ex").decode()
-        assert "Ada,400,A,80" in table
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "name,id,email\nAda Lovelace,7,ada@x.org\n",
-        "Last name;First name;ID number;E-Mail\nLovelace;Ada;7;ada@x.org\n",
-        "\ufeffStudent ID\tFull Name\tEmail address\n7\tLovelace, Ada\tada@x.org\n",
-        "username,first_name,last_name,email,section,github_id\nada7,Ada,Lovelace,ada@x.org,,1\n",
-        "Nachname;Vorname;Matrikelnummer;E-Mail\r\nLovelace;Ada;7;ada@x.org\r\n",
-    ],
-)
-def test_heads_of_rosters_vary(tmp_path, text):
-    (ada,) = read_roster(roster(tmp_path, text)).students
-    assert (ada.name, ada.mail) == ("Ada Lovelace", "ada@x.org") and (ada.id or ada.user)
-
-
-def test_a_file_whose_name_has_a_line_break_is_refused_in_one_line(tmp_path):
-    """Found by `make fuzz` in a class.yaml."""
-    with pytest.raises(BotschoolError) as refused:
-        read_roster(tmp_path / "students.csv\n3")
-    assert "students.csv 3 cannot be read" in str(refused.value)
-
-
-def test_a_table_that_is_no_roster(tmp_path):
-    for text, sentence in (
-        ("", "is empty"),
-        ("a,b\n1,2\n", "names no students"),
-        ("name\n", "no st"),
-    ):
-        with pytest.raises(BotschoolError, match=sentence):
-            read_roster(roster(tmp_path, text))
-
-
-def test_people_are_matched_however_their_platform_names_them(tmp_path):
-    text = (
-        "name,id,email,username\nAda Lovelace,7,ada@x.org,ada-l\nJo\u00e3o da Silva,8,js@x.org,js\n"
-        "Kim Lee,9,kim@x.org,kim\nKim Lee,10,lee@x.org,lee\n"
-    )
-    found = read_roster(roster(tmp_path, text))
-
-    def id_of(person):
-        student = found.match(person)
-        return student.id if student else None
-
-    assert id_of(Person("Lovelace Ada", "x")) == "7"
-    assert id_of(Person("lovelaceada", "x", "canvas")) == "7"
-    assert id_of(Person("dasilvajo\u00e3o", "x", "canvas")) == "8"
-    assert id_of(Person("Joao Da Silva", "x", "moodle", {"participant": "5"})) == "8"
-    assert id_of(Person("ex3-ada-l", "ex3-ada-l")) == "7"
-    assert id_of(Person("8", "8")) == "8" and id_of(Person("ada", "ada")) == "7"
-    assert id_of(Person("x", "x", "gradescope", {"email": "KIM@x.org"})) == "9"
-    assert id_of(Person("Kim Lee", "x")) is None  # two have this name
-    assert id_of(Person("Eve", "x")) is None
-
-
-TWICE = {
-    "equal rows": ("name,id,email", "Ada Byron,7,a@x.org", "Ada Byron,7,a@x.org"),
-    "a name alone": ("name", "Ada Byron", "Ada Byron"),
-    "an id": ("name,id,email", "Ada Byron,7,a@x.org", '"Byron, Ada",7,ada@x.org'),
-    "an email in capitals": ("name,id,email", "Ada Byron,7,A@x.org", "Ada King Byron,,a@x.org"),
-    "a row without a name": ("name,id,email", ",7,a@x.org", "Ada Byron,7,"),
-    "a user name": ("name,username,section", "Ada Byron,ada,1", "Ada Byron,ada,2"),
-    "one by one": ("name,id,email,user", "Ada Byron,7,,", "Ada Byron,7,a@x.org,", "Ada,,a@x.org,a"),
-    "Moodle's number": ("Identifier,Name,Grade", "Participant 7,Ada Byron,", "Participant 7,A,"),
-    "Canvas's number": ("Student,ID,Section,Ex (7)", "Ada Byron,400,A,", "Ada Byron,400,B,"),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("kind", TWICE)
-def test_a_student_who_stands_twice_is_one(tmp_path, kind):
-    head, *rows = TWICE[kind]
-    found = read_roster(roster(tmp_path, "\n".join([head, "", *rows]) + "\n"))
-    (ada,) = found.students
-    assert ada.rows == list(range(len(rows))) and found.match(Person("Ada Byron", "x")) == ada
-    assert f"names Ada Byron {len(rows)} times (rows 2, 3" in found.notes[0]
-    for key in sorted(ada.keys()):
-        assert found.find(key) == ada
-    if found.kind == "moodle":
-        table = moodle_worksheet(found, {ada: (80.0, "")}, 100).decode()
-        assert table.count("80.00") == 2
-    if found.kind == "canvas":
-        assert canvas_gradebook(found, {ada: (80.0, "")}, 100, "").decode().count(",80") == 2
-
-
-@pytest.mark.parametrize(
-    "rows",
-    [
-        "Ada Byron,7,a@x.org\nAda Byron,8,b@x.org\n",
-        "Ada Byron,-,a@x.org\nBob Gauss,-,b@x.org\n",
-        "Ada Byron,7,info@x.org\nBob Gauss,8,info@x.org\n",
-    ],
-)
-def test_two_students_are_two(tmp_path, rows):
-    found = read_roster(roster(tmp_path, f"name,id,email\n{rows}"))
-    assert len(found.students) == 2 and not found.notes
-
-
-@pytest.mark.slow
-def test_a_class_list_that_names_somebody_twice_loses_no_grade(course, tmp_path):
-    download = written(tmp_path / "class", {f"7/{FILE}": SOLUTION.encode()})
-    people = roster(tmp_path, "name,id,email\nAda Byron,7,a@x.org\nAda Byron,7,a@x.org\n")
-    code, out, errors = call(
-        "grade-all", download, "-e", "3.2", "-o", tmp_path / "out", "--roster", people
-    )
-    assert (code, errors) == (0, "") and "students.csv names Ada Byron 2 times" in out
-    assert [row["total"] for row in rows_of(tmp_path / "out" / "grades.csv")] == ["40"]
 
 
 FORMULAS = (
@@ -308,7 +186,8 @@ def test_a_class_with_all_that_happens(course, tmp_path):
         }
     assert "2 days" in rows["Bob =1+1"]["notes"] or "hours" in rows["Bob =1+1"]["notes"]
     assert rows["Carl Gauss"]["notes"] == "Exercise 3: Nothing was handed in."
-    assert rows["Ada Lovelace"]["3.1"] == "60" and rows["Ada Lovelace"]["email"] == "ada@x.org"
+    assert rows["Ada Lovelace"]["3.1"] == "60"
+    assert rows["Ada Lovelace"]["Email address"] == "ada@x.org"
     back = rows_of(tmp_path / "out" / "moodle.csv")
     assert [row["Grade"] for row in back] == ["49.50", "10.00", ""]
     assert back[2]["Email address"] == "carl@x.org" and "typo" in back[0]["Feedback comments"]
@@ -353,24 +232,11 @@ def test_canvas_takes_its_gradebook_and_feedback_back(course, tmp_path):
         assert b"Exercise 3. Tiny: 100 of 100" in archive.read(archive.namelist()[0])
 
 
-@pytest.mark.slow
-def test_a_student_who_handed_in_twice_and_wrong_names(course, tmp_path):
-    download = written(
-        tmp_path / "class",
-        {
-            f"ada/{FILE}": HALF.encode(),
-            f"7/{FILE}": SOLUTION.encode(),
-        },
-    )
+def test_settings_name_nobody_unknown(course, tmp_path):
+    download = written(tmp_path / "class", {f"ada/{FILE}": HALF.encode()})
     people = roster(tmp_path, "name,id,email\nAda Lovelace,7,ada@x.org\n")
-    arguments = ("grade-all", download, "-o", tmp_path / "out", "--roster", people)
-    code, _, errors = call(*arguments)
-    assert (code, errors) == (0, "")
-    rows = rows_of(tmp_path / "out" / "grades.csv")
-    assert [(row["student"], row["total"]) for row in rows] == [("Ada Lovelace", "100")]
-    assert "Handed in 2 times (7, ada): the better one counts." in rows[0]["notes"]
-    assert rows[0]["handed in as"] == "7, ada"
     settings(tmp_path, "extensions:\n  bob:\n    3: 2026-11-20\n")
+    arguments = ("grade-all", download, "-o", tmp_path / "out", "--roster", people)
     one_sentence(*call(*arguments)[::2], "class.yaml, line 2 names bob, who is not in the class")
 
 
@@ -381,7 +247,7 @@ def test_gradescopes_times_count(course, tmp_path):
     settings(tmp_path, "due:\n  3: 2026-11-15\nlate: 1 per day\nweights:\n  3: 0.5\n")
     assert call("grade-all", download, "-o", tmp_path / "out")[0] == 0
     (row,) = rows_of(tmp_path / "out" / "grades.csv")
-    assert row["exercise 3"] in ("94", "95") and float(row["total"]) == float(row["exercise 3"]) / 2
+    assert row["exercise 3"] in ("94", "95") and row["total"] == row["exercise 3"]  # not weighted
 
 
 @pytest.mark.slow
@@ -422,15 +288,6 @@ def test_commits_and_nbgraders_times_count(course, tmp_path, monkeypatch):
     assert call(*arguments)[0] == 0
     assert found() == {"Ada": "90", "Bob": "100", "Eve": "80"}
     assert "timestamp" not in (tmp_path / "out" / "grades.csv").read_text()
-
-
-def test_gradebooks_that_do_not_fit(tmp_path):
-    sheet = read_roster(roster(tmp_path, "Identifier,Full name,Final Grade\nParticipant 1,A,\n"))
-    with pytest.raises(BotschoolError, match="no column 'Grade'"):
-        moodle_worksheet(sheet, {}, 100)
-    book = read_roster(roster(tmp_path, 'Student,ID,Section\n"B, A",1,\n'))
-    with pytest.raises(BotschoolError, match="there are: none"):
-        canvas_gradebook(book, {}, 100, "")
 
 
 # --- who stumbled, and who is alike

@@ -237,6 +237,8 @@ class Download:
         person = self._add(name, key, platform)
         rest = found["rest"] or f"{found.groupdict().get('kind') or ''}.txt"
         person.names.append(path.name)
+        if platform == "moodle":
+            person.about["number"] = f"Participant {key.rpartition('_')[2]}"
         if platform == "canvas":
             person.late = person.late or bool(found["late"])
         if platform == "attempt":

@@ -198,7 +198,7 @@ def join(
                 f"{_shown(best.label)} says {plain(names[row])}, {_shown(other.label)} says "
                 f"{plain(names[other.of[entry]])}"
             )
-        elif not proven and _differ(names[row], entries[entry]):
+        elif not proven and _differ(names[row], rows[row], entries[entry]):
             joined.why[entry] = f"{_shown(best.label)} says {plain(names[row])}: another name"
         else:
             of[entry] = row
@@ -316,10 +316,14 @@ def _ambiguous(pairs: list[_Pair], shared: Mapping[tuple[str, str], dict[int, st
     return found
 
 
-def _differ(name: str, parts: Values) -> bool:
-    """Return whether an entry has a full name, a row has one, too, and it is another."""
+def _differ(name: str, row: Values, parts: Values) -> bool:
+    """Return whether an entry has a full name, a row has one, too, and it is another.
+
+    name: of the row, to be shown.
+    """
     own = [folded(part) for part in parts.values() if is_name(part)]
-    same = re.compile(rf"(?<!\w){re.escape(folded(name))}(?!\w)")
+    names = [re.escape(folded(text)) for text in (name, *row.values()) if is_name(text)]
+    same = re.compile(rf"(?<!\w)(?:{'|'.join(names)})(?!\w)")
     return is_name(name) and bool(own) and not any(map(same.search, own))
 
 

@@ -154,6 +154,8 @@ def _statistics(rows: list[Row], register: Register) -> bytes:
         notes.append(f"{len(register.missing)} handed in nothing: {names}.")
     if register.unknown:
         notes.append(f"{len(register.unknown)} not on the roster: {', '.join(register.unknown)}.")
+    if odd := [row.name for row in rows if row.page and any(r["problem"] for r in row.results)]:
+        notes.append(f"{len(odd)} without a program to grade, so in no count: {', '.join(odd)}.")
     people = [(row.name, row.page, row.results) for row in rows]
     return statistics_page(by_task(people), notes).encode("utf-8", "replace")
 

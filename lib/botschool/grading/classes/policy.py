@@ -229,7 +229,7 @@ class _Reader:
         found: dict[tuple[str, Number], list[str]] = {}
         for table, row, place in self._table(value, "groups"):
             with self._at(place):
-                group = table.get(row, "group").lstrip("'")
+                group = table.get(row, "group", "team").lstrip("'")
                 if not group:
                     raise BotschoolError("names no group: fill in the column 'group'.")
                 number = table.get(row, "exercise")

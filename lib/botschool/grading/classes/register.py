@@ -7,6 +7,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from datetime import datetime
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -48,10 +49,12 @@ class Row:
     def name(self) -> str:
         return self.student.name
 
-    @property
+    @cached_property
     def keys(self) -> list[str]:
         """Return the words by which the settings may name the person."""
-        return sorted(self.student.words)
+        texts = {text for part in self.parts for text in part.values.values()}
+        own = {folded(text) for text in texts if any(c.isdigit() or c == "@" for c in text)}
+        return sorted(self.student.words | own)
 
     def handed(self, number: Number) -> list[tuple[str, Person]]:
         """Return the submissions of an exercise; the group's if the person has none."""

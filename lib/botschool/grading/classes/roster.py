@@ -181,7 +181,7 @@ def _names(rows: Sequence[dict[str, str]], heads: Sequence[str]) -> list[str]:
 
     def fits(texts: Iterable[str], test: Any) -> bool:
         own = [folded(text) for text in texts if text and test(text)]
-        return len(own) >= least and len(set(own)) * 5 >= len(own) * 4
+        return len(own) >= least and len(set(own)) * 2 >= len(own)
 
     for head in heads:
         if fits(cells(head), is_name):

@@ -71,7 +71,9 @@ def by_task(
                 )
                 one.points.append(task["points"])
                 if task["points"] < task["max_points"] and (told := task["message"].strip()):
-                    one.mistakes.setdefault(mistake(told), []).append((student, page, told))
+                    empty = not result.get("code", told).strip()
+                    what = "the file is empty" if empty else _kind(mistake(told))
+                    one.mistakes.setdefault(what, []).append((student, page, told))
     return list(found.values())
 
 
@@ -81,14 +83,19 @@ def hardest(tasks: list[TaskStatistics], most: int = 3) -> list[TaskStatistics]:
 
 
 def mistake(message: str) -> str:
-    """Return what is wrong, in the words by which equal mistakes are counted.
-
-    It is the cause, if the message has found it, else its first line without numbers.
-    """
+    """Return what is wrong: the cause, if the message has found it, else its first line."""
     lines = message.splitlines()
     if named := [line for line in lines if line.startswith(TOLD)]:
         return named[0][len(TOLD) :].strip()[:300]
-    return re.sub(r"-?\d+(\.\d+)?(e[+-]?\d+)?", "#", lines[0])[:300]
+    return NOT_DONE if lines[0].startswith(NOT_DONE) else lines[0][:300]
+
+
+NOT_DONE = "not done yet"
+
+
+def _kind(what: str) -> str:
+    """Return the words by which equal mistakes are counted: without numbers."""
+    return re.sub(r"-?\d+(\.\d+)?(e[+-]?\d+)?", "#", what)
 
 
 _STYLE = """
@@ -118,6 +125,10 @@ def _section(task: TaskStatistics) -> str:
     items = ""
     for what, examples in wrong[:MOST_MISTAKES]:
         student, page, message = examples[0]
+        first = mistake(message)
+        if what == _kind(first):
+            alike = len({mistake(each[2]) for each in examples}) > 1
+            what = f"{first} (or with other numbers)" if alike else first
         link = f'<a href="feedback/{quote(page)}">{escape(student)}</a>'
         items += (
             f"<li><details><summary><b>{len(examples)} of {count}</b>: {escape(what)}</summary>"

@@ -68,7 +68,7 @@ def read_table(path: Path) -> Table:
     named = _SEPARATOR.match(text)
     text = text[named.end() :] if named else text
     first = text.lstrip("\r\n").partition("\n")[0]
-    delimiter = named[1] if named else max(",;\t", key=first.count)
+    delimiter = named[1] if named else max("\t,;", key=first.count)
     try:
         rows = list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter))
     except (csv.Error, TypeError) as error:

@@ -91,8 +91,14 @@ def unpack(archive: Path | bytes, target: Path, room: Room, name: str = "") -> l
     except Exception as error:
         if isinstance(error, OSError) and error.errno in SHORTAGES:
             raise
-        needs = "password" in str(error) and type(error) is RuntimeError
-        reason = "needs a password" if needs else "is damaged, or no zip file"
+        reason = "is damaged, or no zip file"
+        if "password" in str(error) and type(error) is RuntimeError:
+            reason = "needs a password"
+        elif isinstance(error, NotImplementedError):  # Deflate64, which Windows uses above 2 GB
+            reason = (
+                "is packed by a method that Python cannot unpack (Windows takes it for large "
+                "files): unpack it, or hand in a smaller zip file"
+            )
         raise Unpackable(reason) from None
     return left_out
 
