@@ -358,7 +358,7 @@ CLASSES = {
         f"Group {g}.zip": zipped({f"{g}_{i}_assignsubmission_file_/{FILE}": SOLUTION.encode()})
         for i, g in enumerate("AB", 1)},
     "two downloads of Canvas": {
-        f"submissions ({i}).zip": zipped({f"la_{i}_90_{FILE}": SOLUTION.encode()}) for i in (1, 2)},
+        f"subs ({i}).zip": zipped({f"la_{i}_9{i}_{FILE}": SOLUTION.encode()}) for i in (1, 2)},
     "two sections": {
         f"section {i}/P_{i}_assignsubmission_file_/{FILE}": SOLUTION.encode() for i in (1, 2)},
     "zip files in a folder": {"roster.csv": b"name"} | {

@@ -16,7 +16,7 @@ from botschool.grading.classes.batch import Grades, Job
 from botschool.grading.classes.choice import Wanted, find_submissions
 from botschool.grading.classes.download import Download, read_download
 from botschool.grading.classes.files import listed, numbered_folders
-from botschool.grading.classes.outputs import OWN, WORDS, write_outputs
+from botschool.grading.classes.outputs import OWN, WORDS, similar, write_outputs
 from botschool.grading.classes.policy import FILE, add_table
 from botschool.grading.classes.register import Register, Row
 from botschool.grading.classes.rules import Policy
@@ -110,12 +110,16 @@ def grade_all(
         _check_own(output, names)
         _grade(register, asked, grades, skeletons, workers, start, report)
         _write_pages(output / PAGES, register.rows, names)
+        solutions = {number: grades.exercise(number).known.solution for number in skeletons}
+        alike = similar(register.rows, asked, skeletons, solutions)
         save_bytes(output / TABLE, _table(register.rows, register))
         notes = [*export.notes, *_notes(policy, export, download)]
-        written = write_outputs(output, register.rows, register, asked, skeletons, rules)
+        written = write_outputs(output, register.rows, register, alike, rules)
         known = [*exercise_numbers(root), *laboratories]
         notes += [*register.notes, *register.without_effect([*asked], known)]
         notes = [*register.how, *dict.fromkeys(notes)]
+        if copies := listed([row.name for row in register.rows if row.remarks]):
+            notes.append(f"Like our solution, see {output / 'similar.html'}: {copies}.")
         nobodys = [name for name in export.nobodys if name != FILE]
     return Class(register, nobodys, notes, written)
 
@@ -234,7 +238,7 @@ def notes_of(row: Row) -> str:
         broken = re.match(r"[^.\n]*\.?", result["banner"])[0]
         if said := " ".join(filter(None, [result["problem"], broken, *result["notes"]])):
             notes.append(f"{called(result['exercise'])}: {said}")
-    return " ".join([*notes, *row.notes, *row.said])
+    return " ".join([*notes, *row.remarks, *row.notes, *row.said])
 
 
 def _check_own(output: Path, names: list[str]) -> None:

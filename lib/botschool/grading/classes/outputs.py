@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import zipfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import deepcopy
 from io import BytesIO
 from pathlib import Path
@@ -20,6 +20,8 @@ from botschool.grading.classes.similar import (
     Program,
     Sheet,
     doubtful,
+    grouped,
+    like_ours,
     sheets_section,
     similar_pairs,
     similarity_page,
@@ -49,17 +51,16 @@ def write_outputs(
     output: Path,
     rows: list[Row],
     register: Register,
-    asked: dict[Number, tuple[str, ...]],
-    skeletons: dict[Number, str],
+    alike: bytes,
     rules: str,
 ) -> list[Path]:
     """Write the files that this class's platform and settings need; return their paths.
 
-    rules: as in term.record. Raises BotschoolError.
+    alike: the page of similar submissions. rules: as in term.record. Raises BotschoolError.
     """
     made = {"class.html": _statistics(rows, register)}
-    if similar := _similar(rows, asked, skeletons):
-        made["similar.html"] = similar
+    if alike:
+        made["similar.html"] = alike
     made |= _feedback(output, rows)
     made |= filled(output, register, _comment)
     made |= _words(output, rows, register)
@@ -160,9 +161,16 @@ def _statistics(rows: list[Row], register: Register) -> bytes:
     return statistics_page(by_task(people), notes).encode("utf-8", "replace")
 
 
-def _similar(
-    rows: list[Row], asked: dict[Number, tuple[str, ...]], skeletons: dict[Number, str]
+def similar(
+    rows: list[Row],
+    asked: Iterable[Number],
+    skeletons: Mapping[Number, str],
+    solutions: Mapping[Number, str],
 ) -> bytes:
+    """Return the page of similar submissions; b"" if there is nothing to compare.
+
+    Whose program is nearly our solution gets a remark for the instructor.
+    """
     found = {}
     for number in [each for each in asked if isinstance(each, int)]:
         programs = {}
@@ -170,9 +178,15 @@ def _similar(
             for result in row.results:  # a group's file is there once for each member
                 if result["exercise"] == number and result.get("code"):
                     programs.setdefault(result["file"], Program(row.name, result["code"]))
-        if len(programs) > 1:
-            pairs = similar_pairs([*programs.values()], skeletons[number])
-            found[number] = (len(programs), pairs)
+        own = [*programs.values()]
+        pairs = similar_pairs(own, skeletons[number], solutions.get(number, ""))
+        ours = like_ours(pairs)
+        for row in rows:
+            if row.name in ours:
+                share = f"{round(100 * ours[row.name])}% like our solution, see similar.html."
+                row.remarks.append(f"{called(number)}: {share}")
+        if len(programs) > 1 or pairs:
+            found[number] = (len(programs), grouped(pairs))
     people = [row.name for row in rows]
     sheets = {lab: told for lab in asked if (told := doubtful(_sheets(rows, lab), people))}
     parts = [sheets_section(lab, told) for lab, told in sheets.items()]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter, defaultdict
 from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
@@ -44,6 +45,8 @@ class Row:
     """The points of all exercises; None if one of them was not graded."""
     said: list[str] = field(default_factory=list)
     """Sentences on the term's total."""
+    remarks: list[str] = field(default_factory=list)
+    """Sentences for the instructor alone."""
 
     @property
     def name(self) -> str:
@@ -128,11 +131,13 @@ class Members:
         where: str,
         loose: Sequence[bool] = (),
         what: str = "names",
+        clash: Callable[[int, Student], bool] = lambda at, student: False,
     ) -> list[Student | None]:
         """Return the student of each entry, by PEOPLE and by equal values.
 
-        names: of each entry, by which PEOPLE may name it. where: the download.
-        """  # fmt: skip
+        names: of each entry, by which PEOPLE may name it. where: the download. clash(entry,
+        student): whether both did what one person does once; then a name does not join them.
+        """
         found: list[Student | None] = [self._answered(own) for own in names]
         left = [at for at, student in enumerate(found) if student is None]
         if not self.students or not left:
@@ -141,9 +146,13 @@ class Members:
         joined = join(*_shown(self.students), [entries[at] for at in left], own_loose, what)
         if joined.said:
             self.how.append(f"{where or 'Submissions'}: {joined.said}.")
-        for at, row in zip(left, joined.rows, strict=True):
-            found[at] = None if row is None else self.students[row]
         why = {left[at]: reason for at, reason in joined.why.items()}
+        for at, row in zip(left, joined.rows, strict=True):
+            student = None if row is None else self.students[row]
+            if student and clash(at, student) and not _share_a_number(student.values, entries[at]):
+                why[at] = f"{plain(student.name)} handed in the same exercise, elsewhere"
+                continue
+            found[at] = student
         for at in left:
             if found[at] is None and (self.has_list or at in why):
                 self.doubts.append((sorted(names[at], key=len)[-1], why.get(at, "")))
@@ -226,6 +235,15 @@ def _shown(students: Sequence[Student]) -> tuple[list[Values], list[str]]:
     return [student.values for student in students], [student.name for student in students]
 
 
+def _share_a_number(one: Values, other: Values) -> bool:
+    """Return whether two people share a value that is more than a name."""
+    own, others = (
+        {folded(text) for text in values.values() if re.search(r"[\d@]", text)}
+        for values in (one, other)
+    )
+    return bool(own & others)
+
+
 class Register(Members):
     """Match submissions with the people of the class.
 
@@ -255,9 +273,14 @@ class Register(Members):
         for section in dict.fromkeys(one.section for one in people):
             own = [one for one in people if one.section == section]
             names = [{one.key, one.student, *one.names} for one in own]
-            students = self.join(
-                [one.values for one in own], names, section, [one.loose for one in own]
-            )
+            done = {id(s): part for s, part in found if not s.listed}
+
+            def clash(at: int, student: Student, own: Any = own, done: Any = done) -> bool:
+                other = done.get(id(student))
+                return bool(other and own[at].files.keys() & other.files.keys())
+
+            values, loose = [one.values for one in own], [one.loose for one in own]
+            students = self.join(values, names, section, loose, clash=clash)
             shown = Counter(one.student for one in own)
             new = []
             for one, student in zip(own, students, strict=True):

@@ -29,6 +29,9 @@ LENGTH = 9
 """Tokens in a sequence to compare."""
 LEAST, MOST_PAIRS = 0.5, 20
 """Smallest similarity of pairs to show, and their number."""
+LIKE_OURS, SHARE = 0.85, 0.5
+"""Smallest similarity with our solution to show, and share of the solution that is in it."""
+OURS = "our solution"
 EQUAL = 0.995
 """Similarity of programs that are one to the reader: a group of them is shown once."""
 MIN_SEQUENCES = 15
@@ -88,8 +91,13 @@ def _sequences(text: str) -> dict[tuple[str, ...], set[int]]:
     return found
 
 
-def similar_pairs(programs: Sequence[Program], skeleton: str) -> list[Pair]:
-    """Return the most similar pairs, the most similar one first; equal programs count as one."""
+def similar_pairs(programs: Sequence[Program], skeleton: str, solution: str = "") -> list[Pair]:
+    """Return the similar pairs, the most similar one first, our solution among the programs.
+
+    Right answers resemble it by nature, so only those that are nearly it are pairs with it.
+    """
+    ours = Program(OURS, solution)
+    programs = [*programs, ours] if solution else programs
     given = _sequences(skeleton).keys()
     all_of = []
     for program in programs:
@@ -108,17 +116,25 @@ def similar_pairs(programs: Sequence[Program], skeleton: str) -> list[Pair]:
         if first.student == second.student:
             continue
         common = a.keys() & b.keys()
-        least = max(1e-9, min(sums[i], sums[j]))
-        similarity = min(1.0, sum(weight[key] for key in common) / least)
-        if similarity >= LEAST:
+        shorter = max(1e-9, min(sums[i], sums[j]))
+        similarity = min(1.0, sum(weight[key] for key in common) / shorter)
+        least = LEAST
+        if second is ours:
+            least = LIKE_OURS if len(common) >= SHARE * len(b) else 2.0
+        if similarity >= least:
             lines = (_lines(a, common), _lines(b, common))
             pairs.append(Pair(first, second, similarity, lines))
     pairs.sort(key=lambda pair: (-pair.similarity, pair.first.student, pair.second.student))
-    return _grouped(pairs)[:MOST_PAIRS]
+    return pairs
 
 
-def _grouped(pairs: list[Pair]) -> list[Pair]:
-    """Return one pair of each group of equal programs, and one of each two groups."""
+def like_ours(pairs: Iterable[Pair]) -> dict[str, float]:
+    """Return who handed in a program like our solution, and how similar it is."""
+    return {pair.first.student: pair.similarity for pair in pairs if pair.second.student == OURS}
+
+
+def grouped(pairs: Sequence[Pair]) -> list[Pair]:
+    """Return pairs to show: equal programs count as one."""
     groups: dict[str, frozenset[str]] = {}
     for pair in pairs:
         if pair.similarity >= EQUAL:
@@ -133,7 +149,7 @@ def _grouped(pairs: list[Pair]) -> list[Pair]:
             seen.add(both)
             also = sorted(next(iter(both)) - set(names)) if len(both) == 1 else ()
             kept.append(replace(pair, also=tuple(also)))
-    return kept
+    return kept[:MOST_PAIRS]
 
 
 def _lines(own: dict[tuple[str, ...], set[int]], keys: Iterable[tuple[str, ...]]) -> frozenset[int]:

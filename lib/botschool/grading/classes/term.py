@@ -105,7 +105,12 @@ class Term(Members):
             people = [student for student, _, _ in output.people]
             names = [own for _, own, _ in output.people]
             values = [student.values for student in people]
-            joined = self.join(values, names, str(output.folder), what="columns")
+
+            def clash(at: int, student: Student, output: Output = output) -> bool:
+                mine = _handed(output.people[at][2])
+                return any(mine & _handed(each) for each in found.get(id(student), ()))
+
+            joined = self.join(values, names, str(output.folder), what="columns", clash=clash)
             for own, student, (_, _, results) in zip(people, joined, output.people, strict=True):
                 if student is None:
                     own.listed = own.listed and not self.has_list
@@ -149,6 +154,10 @@ class Term(Members):
     @property
     def missing(self) -> list[Row]:
         return [row for row in self.rows if not any(r["handed in"] for r in row.results)]
+
+
+def _handed(results: dict[Number, dict[str, Any]]) -> set[Number]:
+    return {number for number, result in results.items() if result["handed in"]}
 
 
 def table(term: Term) -> bytes:
