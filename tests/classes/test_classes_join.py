@@ -6,6 +6,7 @@ import io
 import pytest
 
 from botschool.errors import BotschoolError
+from botschool.grading.classes.batch import Grades, Job
 from botschool.grading.classes.choice import Wanted, find_submissions
 from botschool.grading.classes.download import read_download
 from botschool.grading.classes.files import numbered_folders
@@ -13,7 +14,7 @@ from botschool.grading.classes.register import Register
 from botschool.grading.classes.roster import read_answers, read_roster
 from botschool.grading.classes.rules import Policy
 from botschool.grading.declare.trust import trust
-from exports import saved, zipped
+from exports import saved, written, zipped
 from tiny_course import FILE, SOLUTION, make_course
 
 GIVEN = {
@@ -37,17 +38,26 @@ PEOPLE = [  # name, number, id, user, points
 NUMBERS = [str(person[1]) for person in PEOPLE]
 
 
+SECRET = "a secret of thirty-two letters!!"
+
+
 @pytest.fixture(scope="module")
 def root(tmp_path_factory):
+    """A course that has graded what is handed in: afterwards its results come from the cache."""
     root = make_course(tmp_path_factory.mktemp("join") / "course")
     trust(root)
+    jobs = []
+    for points, text in GIVEN.items():
+        written(root.parent / str(points), {FILE: text.encode()})
+        jobs.append(Job(3, root.parent / str(points) / FILE))
+    Grades(root, secret=SECRET).of(jobs, 1)
     return root
 
 
 @pytest.fixture
 def course(root, monkeypatch):
     monkeypatch.setenv("BOTSCHOOL_COURSE", str(root))
-    monkeypatch.setenv("BOTSCHOOL_GRADING_SEED", "a secret of thirty-two letters!!")
+    monkeypatch.setenv("BOTSCHOOL_GRADING_SEED", SECRET)
 
 
 def table(path, rows, delimiter=",", encoding="utf-8", before=""):

@@ -145,6 +145,7 @@ def test_settings_without_effect_are_said(course):
     assert "'late' has no effect without a deadline" in out
 
 
+@pytest.mark.slow
 def test_a_worksheet_tells_who_of_one_name_is_who_on_the_class_list(course):
     people = [Handed("Kim Lee", {FILE: text.encode()}) for text in (HALF, SOLUTION)]
     saved(course / "x.zip", moodle(people))

@@ -17,7 +17,7 @@ from botschool.grading.classes.candidate import Choice
 from botschool.grading.classes.download import Person
 from botschool.grading.classes.files import File, listed
 from botschool.grading.classes.join import Values, clean, folded, join
-from botschool.grading.classes.roster import Answers, Named, Student
+from botschool.grading.classes.roster import PEOPLE, Answers, Named, Student
 from botschool.grading.classes.rules import Policy, tidy
 from botschool.grading.classes.times import told_by
 from botschool.grading.classes.wall import Broken, walled
@@ -158,16 +158,18 @@ class Members:
                 self.doubts.append((sorted(names[at], key=len)[-1], why.get(at, "")))
         return found
 
+    def answer(self, names: Collection[str]) -> str:
+        """Return the word for a student that PEOPLE has for an entry of these names; or ""."""
+        own = dict.fromkeys(clean(each) for name in names for each in (name, plain(name)))
+        return next((self._answers.of[name] for name in own if name in self._answers.of), "")
+
     def _answered(self, names: Collection[str]) -> Student | None:
         """Return whom PEOPLE names for an entry. Raises BotschoolError for an unknown person."""
-        own = dict.fromkeys(clean(each) for name in names for each in (name, plain(name)))
-        words = [self._answers.of[name] for name in own if name in self._answers.of]
-        if not words or not self.students:
-            return None
-        student = Named(self.students).find(words[0])
-        if student is None:
+        word = self.answer(names)
+        student = Named(self.students).find(word) if word else None
+        if word and student is None and self.has_list:
             raise BotschoolError(
-                f"{self._answers.path} names {plain(words[0])}, who is nobody or several: write a "
+                f"{self._answers.path} names {plain(word)}, who is nobody or several: write a "
                 "value of the student's row that nobody else has."
             )
         return student
@@ -283,10 +285,10 @@ class Register(Members):
             students = self.join(values, names, section, loose, clash=clash)
             shown = Counter(one.student for one in own)
             new = []
-            for one, student in zip(own, students, strict=True):
+            for at, (one, student) in enumerate(zip(own, students, strict=True)):
                 if student is None:
                     name = one.key if shown[one.student] > 1 else one.student
-                    values = one.values | {"the name": one.student}
+                    values = one.values | {"the name": one.student, PEOPLE: self.answer(names[at])}
                     student = Student(plain(name), values, listed=False)
                     new.append(student)
                 found.append((student, one))

@@ -184,7 +184,7 @@ def _names(rows: Sequence[dict[str, str]], heads: Sequence[str]) -> list[str]:
         return len(own) >= least and len(set(own)) * 2 >= len(own)
 
     for head in heads:
-        if fits(cells(head), is_name):
+        if fits(cells(head), lambda text: is_name(re.sub(r"(?<=[^\W\d])\d+", "", text))):
             return _unique([_turned(text) for text in cells(head)], rows, heads)
     for a, b in itertools.pairwise(heads):
         both = [f"{row[a]} {row[b]}".strip() for row in rows]

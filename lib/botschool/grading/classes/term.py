@@ -14,7 +14,7 @@ from botschool.console import Console
 from botschool.errors import BotschoolError
 from botschool.grading.classes.files import listed
 from botschool.grading.classes.register import Members, Row
-from botschool.grading.classes.roster import Student
+from botschool.grading.classes.roster import PEOPLE, Student
 from botschool.grading.classes.rules import TOTAL, Policy, tidy
 from botschool.grading.classes.tables import check_own, made_table
 from botschool.grading.declare.exercise import Number, called
@@ -111,8 +111,9 @@ class Term(Members):
                 return any(mine & _handed(each) for each in found.get(id(student), ()))
 
             joined = self.join(values, names, str(output.folder), what="columns", clash=clash)
-            for own, student, (_, _, results) in zip(people, joined, output.people, strict=True):
+            for own, student, (_, said, results) in zip(people, joined, output.people, strict=True):
                 if student is None:
+                    own.values[PEOPLE] = self.answer(said)
                     own.listed = own.listed and not self.has_list
                     self.students.append(student := own)
                 elif not self.has_list:
