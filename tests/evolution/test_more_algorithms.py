@@ -108,8 +108,6 @@ def test_pgpe_agrees_with_plain_python():
 # --- CMA-ES and xNES beside pycma, Hansen's own CMA-ES: the same steps, and the same optima.
 
 
-cma = pytest.importorskip("cma")
-
 N = 6
 
 
@@ -142,9 +140,11 @@ def ours(algo, start, sigma, seed=1, **options):
 
 
 def theirs(start, sigma, seed=1, **options):
+    cma = pytest.importorskip("cma")  # takes seconds to import
     return cma.CMAEvolutionStrategy(start, sigma, {"seed": seed, "verbose": -9} | options)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("popsize", [9, 30])
 @pytest.mark.parametrize("f", [ellipsoid, rotated])
 def test_the_same_samples_give_the_same_mean_sigma_and_covariance(f, popsize):
@@ -156,6 +156,7 @@ def test_the_same_samples_give_the_same_mean_sigma_and_covariance(f, popsize):
     # normal vector instead of the tutorial's formula
     two.adapt_sigma.cs = one.settings.csigma
     two.adapt_sigma.damps = one.settings.dsigma
+    cma = pytest.importorskip("cma")
     exact = cma.utilities.math.Mh.chiN(N)
     assert one.settings.length == pytest.approx(exact, rel=1e-3)
     one.settings = replace(one.settings, length=exact)
@@ -203,9 +204,8 @@ def evaluations_of_pycma(strategy, f, budget, target=1e-8):
     return None
 
 
-@pytest.mark.parametrize(
-    "f", [sphere, ellipsoid, cigar, rosenbrock, pytest.param(rotated, marks=pytest.mark.slow)]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("f", [sphere, ellipsoid, cigar, rosenbrock, rotated])
 def test_they_reach_the_optimum_that_pycma_reaches(f):
     """Within 1e-8: CMA-ES as fast, xNES several times slower, as its learning rates are.
 

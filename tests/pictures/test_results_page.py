@@ -98,9 +98,3 @@ def test_the_batched_network_is_the_policy(problem):
         assert (output.argmax() if isinstance(expected, int) else output) == pytest.approx(
             expected, 1e-5
         )
-
-
-# --- Settings for MuJoCo's robots and Atari's games: who gets which entry, and that it trains.
-
-
-pytest.importorskip("sb3_contrib")

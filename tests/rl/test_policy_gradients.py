@@ -8,6 +8,8 @@ from botschool.rl.native import PPO, Minibatch
 
 torch = pytest.importorskip("torch")
 
+pytestmark = pytest.mark.slow
+
 NETWORKS = [
     ("CartPole-v1", {}),
     ("Acrobot-v1", {"net_arch": [32, 16, 24], "activation_fn": "relu"}),
@@ -125,7 +127,6 @@ def test_gradients_are_torchs(env, network, n, clips):
         assert 0.1 < found.clip_fraction < 0.95
 
 
-@pytest.mark.slow
 def test_adam_is_torchs():
     ppo = random_agent("Pendulum-v1", max_grad_norm=0.5)
     mine = torch.nn.Parameter(torch.tensor(ppo.parameters.copy()))

@@ -15,7 +15,10 @@ from botschool.rl.training import train
 from botschool.rl.weights import WEIGHTS
 
 pytest.importorskip("stable_baselines3")
-pytestmark = pytest.mark.usefixtures("by_sb3")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.usefixtures("by_sb3"),
+]
 
 
 @pytest.fixture(scope="module")
@@ -92,7 +95,6 @@ def test_wrong_hyperparameters(param, says, refused, tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.slow
 def test_learning_that_explodes(tmp_path):
     params = {"learning_rate": 1e30, "max_grad_norm": 1e30, "n_steps": 32, "batch_size": 32}
     with pytest.raises(BotschoolError, match=r"broke down after \d+ steps.*lower learning_rate"):

@@ -9,6 +9,8 @@ from botschool.rl.explained import EXPLAINED, OF, REPLAY, ROLLOUTS, TRAINING
 from botschool.rl.native import Hyperparameters
 from running import call
 
+pytestmark = pytest.mark.slow
+
 SHARED = {"share_layers"}
 """Of the native learner alone."""
 
