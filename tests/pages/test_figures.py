@@ -7,10 +7,8 @@ import re
 
 import pytest
 
-from botschool.errors import BotschoolError
 from botschool.grading.copies.release import release
 from botschool.grading.copies.starting import living_page
-from botschool.page import exercise
 from botschool.page.exercise import PAGE, POINTER, exercise_page, has_page, linked
 from botschool.page.markdown import render
 from living import FOLDERS, NAMED, ROOT, WITH_PAGES, built, open_figures
@@ -50,8 +48,7 @@ SILENT = """[...document.querySelectorAll('.figure canvas, button, input')].filt
 
 @built
 @pages
-@pytest.mark.parametrize("dark", [False, True])
-@pytest.mark.parametrize("width", [390, 1280])
+@pytest.mark.parametrize(("width", "dark"), [(390, True), (1280, False)])
 def test_a_page_opens_without_errors(browser, number, width, dark, tmp_path):
     open_figures(browser, number, tmp_path, width, dark)
     assert browser.run("Object.keys(figures)") == NAMED[number]
@@ -87,7 +84,7 @@ def test_a_text_becomes_a_page(tmp_path):
 
 
 @built
-def test_a_copy_has_its_pages_ready(tmp_path, monkeypatch):
+def test_a_copy_has_its_pages_ready(tmp_path):
     copy = tmp_path / "copy"
     assert release(ROOT, copy, {1, 7}).pageless == ""
     for folder in copy.glob("exercises/ex*"):
@@ -96,16 +93,6 @@ def test_a_copy_has_its_pages_ready(tmp_path, monkeypatch):
         assert living_page(int(folder.name[2:4]), copy) == folder / PAGE
         assert (folder / PAGE).stat().st_mtime_ns == made
     assert release(ROOT, copy, {1, 7}).written == 0
-
-    monkeypatch.setattr(exercise, "core_file", no_core)
-    done = release(ROOT, copy, {1, 7})
-    assert "make web" in done.pageless and not done.edited
-    assert not [*copy.glob("exercises/*/page.html")]
-    assert "`botschool start 7` opens" in next(copy.glob("exercises/ex07*/README.md")).read_text()
-
-
-def no_core(part):
-    raise BotschoolError("The core for pages is not built here: type `make web` in the checkout.")
 
 
 def test_an_exercise_without_figures_has_no_page(tmp_path):
