@@ -240,6 +240,7 @@ def test_other_submissions_are_not_remembered(course):
     assert " 0 " in rows_of_progress()[0]["3"]
 
 
+@pytest.mark.slow
 def test_results_are_kept_by_content(course, tmp_path, monkeypatch):
     file = submit(tmp_path / "one", SOLUTION)
     job = batch.Job(3, file)

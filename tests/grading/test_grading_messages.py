@@ -75,7 +75,11 @@ def test_no_python_is_said_once_with_line_and_caret(graded):
         ("from math import sqr", "Did you mean sqrt?"),
         ("valeu = 1\nprint(value)", "NameError: name 'value' is not defined"),
         ("class A:\nx = 1", "IndentationError: expected an indented block"),
-        ("import time\nwhile True: time.perf_counter()", "It was at tiny.py:2: while True"),
+        pytest.param(
+            "import time\nwhile True: time.perf_counter()",
+            "It was at tiny.py:2: while True",
+            marks=pytest.mark.slow,
+        ),
     ],
 )
 def test_what_keeps_a_file_from_loading(graded, line, words, monkeypatch):

@@ -25,6 +25,8 @@ from botschool.paths import material
 from botschool.render.panel import STILL, lively
 from browser import Browser, find_browser
 
+pytestmark = pytest.mark.slow
+
 ROOT = material()
 LINE = np.arange(20.0)
 TABLE = np.arange(30.0).reshape(5, 6)
@@ -150,7 +152,6 @@ ODD = {
 }
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("odd", ODD.values(), ids=ODD)
 def test_no_answer_stops_the_drawing(odd):
     for kind in KINDS:
