@@ -13,7 +13,7 @@ import numpy as np
 
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
-from botschool.grading.run.confined import SHORTAGES, MachineFault, machine_fault
+from botschool.grading.run.confined import SHORTAGES, machine_fault
 from botschool.grading.run.student import Student
 from botschool.labs.confined import drawn_figure, measured, student_file
 from botschool.labs.declare import PARTS, STRATEGY
@@ -85,16 +85,18 @@ class Check:
         """Return whether the check has given all that it can give."""
         return self.points >= sum(PARTS.values())
 
-    def _walled(self, name: str, check: Callable[[], None]) -> None:
-        """Check a part; a file that nobody has thought of costs this part alone."""
+    def _walled(self, name: str, check: Callable[[Part], None]) -> None:
+        """Check a part until it raises Wrong; what nobody has thought of costs this part alone."""
+        part = self.parts[name]
         try:
-            check()
+            check(part)
+        except Wrong as error:
+            part.lose(str(error))
         except (BotschoolError, MemoryError):
             raise
         except Exception as error:
             if isinstance(error, OSError) and error.errno in SHORTAGES:
                 raise machine_fault(error) from None
-            part = self.parts[name]
             part.points = 0
             part.lose(f"It cannot be checked ({type(error).__name__}: {str(error)[:200]}).")
             if name in ("prediction", "runs"):
@@ -105,20 +107,18 @@ class Check:
         """Return the conditions with enough proven runs; only statements about these count."""
         return {name for name, runs in self.runs.items() if len(runs) == self.lab.replications}
 
-    def _prediction(self) -> None:
-        part = self.parts["prediction"]
+    def _prediction(self, part: Part) -> None:
         try:
             check_specific(self.sheet, self.lab)
         except BotschoolError as error:
-            part.lose(str(error))
-            return
+            raise Wrong(str(error)) from None
         self.runs = own_runs(self.lab, self.sheet, self.place.runs)
         if not any(self.runs.values()):
             why = changed(self.lab, self.sheet, self.place.runs)
-            part.lose(why or f"There are no runs yet: botschool lab {self.lab.number} run.")
+            raise Wrong(why or f"There are no runs yet: botschool lab {self.lab.number} run.")
 
-    def _runs(self) -> None:
-        part, lab = self.parts["runs"], self.lab
+    def _runs(self, part: Part) -> None:
+        lab = self.lab
         there = {c.name: len(self.runs.get(c.name, [])) for c in lab.conditions}
         lacking = [f"{c} has {n}" for c, n in there.items() if n < lab.replications]
         if lacking:
@@ -128,8 +128,7 @@ class Check:
             )
         if not any(there.values()):
             return
-        false = self._prove()
-        if false:
+        if false := self._prove():
             part.lose(
                 f"Evolving from the same seeds gives other files than these: {'; '.join(false[:5])}"
                 f"{' and others' if len(false) > 5 else ''}. They do not count as runs: remove "
@@ -140,10 +139,9 @@ class Check:
             self.parts["prediction"].points = PARTS["prediction"]
         else:
             self.parts["prediction"].lose("It counts once there are runs that follow from it.")
-        part.points = COMPLETE * len(self.whole) / len(lab.conditions)
-        if not false and proven > len(lab.conditions) * lab.replications / 2:
-            part.points += EVIDENCE
-        part.points = round(part.points, 1)
+        most = len(lab.conditions)
+        enough = not false and proven > most * lab.replications / 2
+        part.points = round(COMPLETE * len(self.whole) / most + EVIDENCE * enough, 1)
 
     def _prove(self) -> list[str]:
         """Keep the proven runs; return the name of each other run, with the reason.
@@ -195,36 +193,35 @@ class Check:
         rng = np.random.default_rng(int.from_bytes(self.draw(8), "big"))
         return replayed(run, self.place.runs, self.strategy, rng)
 
-    def _measurements(self) -> None:
+    def _measurements(self, part: Part) -> None:
         """Call measure.py for unseen runs, then for the student's own runs."""
-        part, names = self.parts["measurements"], tuple(self.lab.measures)
         if not any(self.runs.values()):
-            part.lose("Measurements count once there are runs of your own that are proven.")
-            return
-        seed = int.from_bytes(self.draw(4), "big") & 0x7FFFFFFF
+            raise Wrong("Measurements count once there are runs of your own that are proven.")
+        plain = {name: plain_runs(runs, self.lab.others) for name, runs in self.runs.items()}
         try:
             with student_file(self.place.folder / "measure.py") as student:
-                found = []
-                made = [c.maker.made(c, seed + i) for i, c in enumerate(self.lab.unseen)]
-                for run in plain_runs(made, self.lab.others):
-                    found.append(measured(student, run, names))
-                    self._compare(found[-1], run)
-                if told := self.lab.separate(found):
-                    raise Wrong(told)
-                for name, runs in self.runs.items():
-                    plain = plain_runs(runs, self.lab.others)
-                    rows = [measured(student, run, names) for run in plain]
-                    for row, run in zip(rows, plain, strict=True):
+                self._unseen(student)
+                for name, runs in plain.items():
+                    rows = [measured(student, run, tuple(self.lab.measures)) for run in runs]
+                    for row, run in zip(rows, runs, strict=True):
                         self._compare(row, run, f"your run of seed {run['seed']}")
                     self._remember(name, rows)
             part.points = MEASURE
-        except MachineFault:
-            raise
         except Wrong as error:
             part.lose(f"measure.py: {error}")
-            for name, runs in self.runs.items():
-                plain = plain_runs(runs, self.lab.others)
-                self._remember(name, [self._reference(run) for run in plain])
+            for name, runs in plain.items():
+                self._remember(name, [self._reference(run) for run in runs])
+
+    def _unseen(self, student: Student) -> None:
+        """Raise Wrong unless measure.py is right on runs of ours, made for this check."""
+        seed = int.from_bytes(self.draw(4), "big") & 0x7FFFFFFF
+        made = [c.maker.made(c, seed + i) for i, c in enumerate(self.lab.unseen)]
+        found = []
+        for run in plain_runs(made, self.lab.others):
+            found.append(measured(student, run, tuple(self.lab.measures)))
+            self._compare(found[-1], run)
+        if told := self.lab.separate(found):
+            raise Wrong(told)
 
     def _reference(self, run: dict[str, Any]) -> dict[str, float]:
         return self.lab.reference(run, self.answers)
@@ -246,13 +243,11 @@ class Check:
                     f"which is not what the sheet describes: read what it says of {name}."
                 )
 
-    def _table(self) -> None:
-        part = self.parts["measurements"]
+    def _table(self, part: Part) -> None:
         cells = [(c, col) for c in self.lab.conditions for col in self.lab.columns]
         cells = [(c, col) for c, col in cells if c.name.startswith(col.only)]
         if self.whole and self._empty():
-            part.lose("The table is empty: python measure.py prints its rows.")
-            return
+            raise Wrong("The table is empty: python measure.py prints its rows.")
         right = 0
         for condition, column in cells:
             if condition.name not in self.whole:
@@ -281,41 +276,31 @@ class Check:
             return not any("".join(self.sheet.row(c.name)) for c in self.lab.conditions)
         return False
 
-    def _figure(self) -> None:
-        part, figure = self.parts["figure"], self.lab.figure
+    def _figure(self, part: Part) -> None:
+        figure = self.lab.figure
         if not all(self.runs.get(name) for name in figure.conditions):
-            part.lose("The figure counts once each condition that it shows has runs.")
-            return
+            raise Wrong("The figure counts once each condition that it shows has runs.")
         try:
             with student_file(self.place.folder / "figure.py") as student:
-                drawn_ = drawn_figure(student, {k: dict(v) for k, v in self.data.items()})
-            self.picture = drawn_["png"]
-            if not all(x.strip() and y.strip() for x, y in drawn_["labels"]):
+                shown = drawn_figure(student, {k: dict(v) for k, v in self.data.items()})
+            self.picture = shown["png"]
+            if not all(x.strip() and y.strip() for x, y in shown["labels"]):
                 raise Wrong("name both axes, with set_xlabel and set_ylabel.")
-            names = " ".join(y for _, y in drawn_["labels"]).lower()
+            names = " ".join(y for _, y in shown["labels"]).lower()
             if not any(unit in names for unit in figure.units):
                 raise Wrong(f"the vertical axis needs its unit: {' or '.join(figure.units)}.")
-            _check_points(drawn_["points"], figure.conditions, figure.y, self.data)
+            _check_points(shown["points"], figure.conditions, figure.y, self.data)
             part.points = part.max_points
-            self._marked(drawn_["verticals"])
-        except MachineFault:
-            raise
+            place = figure.mark(self.data) if set(figure.conditions) <= self.whole else None
+            if place is not None and not np.isclose(shown["verticals"], place, atol=0.01).any():
+                part.points -= MARK
+                raise Wrong("mark the result by a vertical line (axvline), as sheet.md asks.")
         except Wrong as error:
-            part.lose(f"figure.py: {error}")
+            raise Wrong(f"figure.py: {error}") from None
 
-    def _marked(self, verticals: np.ndarray) -> None:
-        """Take MARK points off a figure without the vertical line that it needs."""
-        part, figure = self.parts["figure"], self.lab.figure
-        place = figure.mark(self.data) if set(figure.conditions) <= self.whole else None
-        if place is not None and not np.isclose(verticals, place, atol=0.01).any():
-            part.points -= MARK
-            part.lose("figure.py: mark the result by a vertical line (axvline), as sheet.md asks.")
-
-    def _conclusion(self) -> None:
-        part = self.parts["conclusion"]
+    def _conclusion(self, part: Part) -> None:
         if not any(self.runs.values()):
-            part.lose("The conclusion counts once there are runs of your own that are proven.")
-            return
+            raise Wrong("The conclusion counts once there are runs of your own that are proven.")
         asked = [field for field in self.lab.fields.values() if not field.predicts]
         part.messages += self.sheet.values(asked)[1]
         for id, statement in self.lab.statements.items():
