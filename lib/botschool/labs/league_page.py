@@ -10,9 +10,8 @@ import numpy as np
 
 from botschool.grading.report.paper import paper
 from botschool.labs.league import CHASE_STEPS, POLE_STEPS, RACE_STEPS, UNITS, League, Ranked
+from botschool.labs.report import replay_frame
 from botschool.output import save_bytes
-from botschool.render.replay import write_replay
-from botschool.render.scenes import scene_of
 
 TITLES = {
     "hopper": "Hoppers",
@@ -79,26 +78,17 @@ def _table(places: Sequence[Ranked]) -> str:
 
 
 def _replay(league: League, name: str, places: Sequence[Ranked], folder: Path) -> str:
-    """Return a frame with the page that replays the winner of a discipline."""
+    """Return a frame that replays the winner of a discipline; predator and prey share one."""
+    if name == "prey":
+        return ""
     first = places[0].entry
     problem, policy, genotype, normalisation = first.robot()
     about, steps = first.shown, POLE_STEPS if name == "cart-pole" else RACE_STEPS
-    if name == "prey":
-        return ""
     if name == "predator":
         genotype, about = _pair(league, genotype)
         steps = CHASE_STEPS
-    scene = scene_of(problem)
-    page = folder / f"{name}.html"
-    play = problem.play(policy, genotype, normalisation, 1, 0, steps)
-    neurons = policy.spec.inputs, policy.spec.outputs
-    write_replay(page, TITLES[name], about, [play], scene.fps, neurons, scene)
-    inside = escape(page.read_text(encoding="utf-8"), quote=True)
-    # as high as its content, so that the bar below it hides no chart
-    fit = "this.style.height=this.contentDocument.documentElement.scrollHeight+2+'px'"
-    return (
-        f'<iframe title="{escape(about)}" loading="lazy" onload="{fit}" srcdoc="{inside}"></iframe>'
-    )
+    robot = problem, policy, genotype, normalisation
+    return replay_frame(robot, steps, TITLES[name], about, folder)
 
 
 def _pair(league: League, own: np.ndarray) -> tuple[np.ndarray, str]:

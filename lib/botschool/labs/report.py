@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from base64 import b64encode
 from contextlib import suppress
 from html import escape
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from botschool import problems
 from botschool.grading.report.paper import paper
@@ -17,7 +18,10 @@ from botschool.labs.fields import Field
 from botschool.labs.folder import Place
 from botschool.labs.sheet import Sheet, Unreadable
 from botschool.output import save_bytes
+from botschool.policies.policy import Policy
+from botschool.problems.base import Problem
 
+Robot = tuple[Problem, Policy, np.ndarray, np.ndarray | None]
 _STYLE = """
 main { max-width: 46rem; } h2 { margin-top: 2.2rem; border-bottom: 1px solid var(--line); }
 table { border-collapse: collapse; display: block; overflow-x: auto; }
@@ -92,34 +96,41 @@ def _points(checked: Check) -> str:
 
 
 def _replay(checked: Check, name: str, folder: Path) -> str:
-    """Return a frame with the page that replays the best proven robot of a condition."""
-    from botschool.render.replay import write_replay
-    from botschool.render.scenes import scene_of, with_frames
-
-    runs = checked.runs.get(name)
-    if not runs:
+    """Return a frame that replays the best proven robot of a condition; "" if there is none."""
+    if not (runs := checked.runs.get(name)):
         return ""
     best = max(runs, key=lambda run: run.stat[-1, 2])
     experiment = best.condition.load()
     problem = problems.of(experiment)
     policy = problem.policy(experiment.policy)
-    genotype, normalisation = policy.split(best.genotype)
+    robot = problem, policy, *policy.split(best.genotype)
+    about, steps = f"{name}, seed {best.seed}", experiment.policy.maxsteps
+    frame = replay_frame(robot, steps, problem.name, about, folder)
+    return f"<p>The best of {escape(name)}:</p>{frame}"
+
+
+def replay_frame(robot: Robot, steps: int, title: str, about: str, folder: Path) -> str:
+    """Return a frame with a page that replays an episode; folder: for temporary files."""
+    from botschool.render.replay import write_replay
+    from botschool.render.scenes import scene_of, with_frames
+
+    problem, policy, *numbers = robot
     scene = scene_of(problem)
-    steps = problem.play(
-        policy, genotype, normalisation, 1, 0, experiment.policy.maxsteps, render=scene is None
-    )
-    page = folder / "replay.html"
-    neurons = policy.spec.inputs, policy.spec.outputs
+    played = problem.play(policy, *numbers, 1, 0, steps, render=scene is None)
+    page, neurons = folder / "replay.html", (policy.spec.inputs, policy.spec.outputs)
     fps = scene.fps if scene else problem.fps
-    about = f"{name}, seed {best.seed}"
-    write_replay(page, problem.name, about, [with_frames(problem, steps)], fps, neurons, scene)
+    write_replay(page, title, about, [with_frames(problem, played)], fps, neurons, scene)
     inside = escape(page.read_text(encoding="utf-8"), quote=True)
-    return f'<p>The best of {escape(name)}:</p><iframe title="{name}" srcdoc="{inside}"></iframe>'
+    # as high as its content, so that the bar below it hides no chart
+    fit = "this.style.height=this.contentDocument.documentElement.scrollHeight+2+'px'"
+    return (
+        f'<iframe title="{escape(about)}" loading="lazy" onload="{fit}" srcdoc="{inside}"></iframe>'
+    )
 
 
 def _inline(text: str) -> str:
-    """Return a line of Markdown as HTML: its code unchanged, emphasis elsewhere."""
-    pieces = re.split(r"`([^`]+)`", text)
-    pieces[1::2] = [f"<code>{escape(code)}</code>" for code in pieces[1::2]]
-    pieces[::2] = [re.sub(r"\*([^*\n]+)\*", r"<em>\1</em>", escape(piece)) for piece in pieces[::2]]
-    return "".join(pieces)
+    """Return a line of Markdown as HTML."""
+    from markdown_it import MarkdownIt
+
+    markdown = MarkdownIt("commonmark", {"html": False}).disable(["link", "image", "autolink"])
+    return markdown.renderInline(text)
