@@ -25,14 +25,12 @@ def model_of() -> mujoco.MjModel:
     return model
 
 
-def differences(strength: float, limits: bool = True) -> tuple[float, float]:
+def differences(strength: float) -> tuple[float, float]:
     """Return root mean squares after 0.6 s: of the height in m, of the hinges' angles in rad.
 
-    strength: of random actions, as a share of their range. limits: whether MuJoCo's hinges have any.
+    strength: of random actions, as a share of their range.
     """
     model = model_of()
-    if not limits:
-        model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_LIMIT
     data, body = mujoco.MjData(model), _core.SpatialBody("humanoid")
     rng, found = np.random.default_rng(1), []
     for _ in range(EPISODES):
