@@ -26,8 +26,6 @@ NUMBERS = tuple(
 STRATEGY = "strategy"
 """Name of the module with the student's own strategy, in the laboratory's folder."""
 
-Run = dict[str, Any]
-"""A run in the form that measure.py gets."""
 Data = Mapping[str, Mapping[str, np.ndarray]]
 """Measurements: condition -> measure -> one value for each run."""
 Answers = Mapping[str, Any]
@@ -188,7 +186,7 @@ class Lab:
     """The fields of the conclusion that earn points, by their id."""
     measures: dict[str, float]
     """What measure.py returns: name -> relative tolerance."""
-    reference: Callable[[Run, Answers], dict[str, float]]
+    reference: Callable[[dict[str, Any], Answers], dict[str, float]]
     """Returns the right measures of a run."""
     unseen: tuple[Condition, ...]
     """Conditions of the check's own runs, which measure.py has never seen."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from botschool.labs.declare import Column, Condition, Figure, Lab, Run
-from botschool.labs.judging import FRESH, RETURN, Answers, larger, mean_over, p_value
-from botschool.labs.measuring import play_again
+from botschool.labs.declare import Answers, Column, Condition, Figure, Lab
+from botschool.labs.judging import FRESH, RETURN, larger, mean_over, p_value
+from botschool.labs.measuring import Run, play_again
 
 SOLVED = 475.0
 """CartPole: mean of 20 new episodes."""

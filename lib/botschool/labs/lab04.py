@@ -4,20 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from botschool.labs.declare import Column, Condition, Figure, Lab, Run
-from botschool.labs.judging import (
-    CANNOT_TELL,
-    FRESH,
-    RETURN,
-    Answers,
-    Data,
-    Judged,
-    Statement,
-    mean_over,
-    near,
-    one_of,
-)
-from botschool.labs.measuring import permutation_test, play_again
+from botschool.labs.declare import Answers, Column, Condition, Data, Figure, Judged, Lab, Statement
+from botschool.labs.judging import CANNOT_TELL, FRESH, RETURN, mean_over, near, one_of
+from botschool.labs.measuring import Run, permutation_test, play_again
 
 
 def reference(run: Run, answers: Answers) -> dict[str, float]:

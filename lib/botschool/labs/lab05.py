@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from botschool.labs.declare import Column, Condition, Figure, Lab, Run
-from botschool.labs.judging import RETURN, Answers, larger, mean_interval, p_value
-from botschool.labs.measuring import paired_test, play_again
+from botschool.labs.declare import Answers, Column, Condition, Figure, Lab
+from botschool.labs.judging import RETURN, larger, mean_interval, p_value
+from botschool.labs.measuring import Run, paired_test, play_again
 
 BODY = 64
 """Parameters of a body, at the end of a genotype."""

@@ -6,19 +6,9 @@ from itertools import combinations
 
 import numpy as np
 
-from botschool.labs.declare import Column, Condition, Figure, Lab, Run
-from botschool.labs.judging import (
-    Answers,
-    Data,
-    Judged,
-    Statement,
-    larger,
-    mean_interval,
-    one_of,
-    p_value,
-    side,
-)
-from botschool.labs.measuring import CYLINDER, forage, interval
+from botschool.labs.declare import Answers, Column, Condition, Data, Figure, Judged, Lab, Statement
+from botschool.labs.judging import larger, mean_interval, one_of, p_value, side
+from botschool.labs.measuring import CYLINDER, Run, forage, interval
 
 
 def described(episode: dict[str, np.ndarray]) -> tuple[float, float, float, float]:

@@ -4,19 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from botschool.labs.declare import Column, Condition, Figure, Lab, Run
-from botschool.labs.judging import (
-    RETURN,
-    Answers,
-    Data,
-    Judged,
-    Statement,
-    larger,
-    one_of,
-    p_value,
-    side,
-)
-from botschool.labs.measuring import RESAMPLES, interval, paired_test, swing
+from botschool.labs.declare import Answers, Column, Condition, Data, Figure, Judged, Lab, Statement
+from botschool.labs.judging import RETURN, larger, one_of, p_value, side
+from botschool.labs.measuring import RESAMPLES, Run, interval, paired_test, swing
 
 LAST, UPRIGHT = 50, 0.3
 """An episode ends upright if the angle is below UPRIGHT in all LAST steps."""

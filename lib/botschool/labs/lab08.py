@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from botschool.labs.declare import Column, Condition, Figure, Lab, Run
-from botschool.labs.judging import FRESH, Answers, larger, p_value, powerful
-from botschool.labs.measuring import play_again
+from botschool.labs.declare import Answers, Column, Condition, Figure, Lab
+from botschool.labs.judging import FRESH, larger, p_value, powerful
+from botschool.labs.measuring import Run, play_again
 
 WIDTH = 20
 SEVERE = 0.3

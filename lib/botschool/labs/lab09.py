@@ -4,20 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from botschool.labs.declare import Column, Condition, Figure, Lab, Run
-from botschool.labs.judging import (
-    Answers,
-    Data,
-    Judged,
-    Statement,
-    larger,
-    near,
-    one_of,
-    p_value,
-    side,
-    span,
-)
-from botschool.labs.measuring import RESAMPLES, interval, record
+from botschool.labs.declare import Answers, Column, Condition, Data, Figure, Judged, Lab, Statement
+from botschool.labs.judging import larger, near, one_of, p_value, side, span
+from botschool.labs.measuring import RESAMPLES, Run, interval, record
 
 
 def reference(run: Run, answers: Answers) -> dict[str, float]:

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import Column, Condition, Figure, Lab, Run
-from botschool.labs.judging import Answers, Data, Judged, Statement, larger, near, p_value
-from botschool.labs.measuring import interval
+from botschool.labs.declare import Answers, Column, Condition, Data, Figure, Judged, Lab, Statement
+from botschool.labs.judging import larger, near, p_value
+from botschool.labs.measuring import Run, interval
 
 SOLVED = 195.0
 

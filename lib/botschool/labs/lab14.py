@@ -6,18 +6,9 @@ from functools import cache
 
 import numpy as np
 
-from botschool.labs.declare import Column, Condition, Figure, Lab, Run
-from botschool.labs.judging import (
-    Answers,
-    Data,
-    Judged,
-    Statement,
-    larger,
-    one_of,
-    p_value,
-    winners,
-)
-from botschool.labs.measuring import play_again, seconds_per_million
+from botschool.labs.declare import Answers, Column, Condition, Data, Figure, Judged, Lab, Statement
+from botschool.labs.judging import larger, one_of, p_value, winners
+from botschool.labs.measuring import Run, play_again, seconds_per_million
 
 GOALS = {"dense": -200.0, "sparse": 90.0, "long": 1000.0}
 

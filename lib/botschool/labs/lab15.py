@@ -4,20 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from botschool.labs.declare import Column, Condition, Figure, Lab, Run
-from botschool.labs.judging import (
-    Answers,
-    Data,
-    Judged,
-    Statement,
-    larger,
-    mean_interval,
-    mean_over,
-    one_of,
-    p_value,
-    side,
-)
-from botschool.labs.measuring import chases
+from botschool.labs.declare import Answers, Column, Condition, Data, Figure, Judged, Lab, Statement
+from botschool.labs.judging import larger, mean_interval, mean_over, one_of, p_value, side
+from botschool.labs.measuring import Run, chases
 
 
 def historical(matrix: np.ndarray) -> float:

@@ -11,12 +11,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+Run = dict[str, Any]
+"""A run: "condition", "seed", "stat", "genotype", "experiment"."""
 RESAMPLES = 10_000
 CYLINDER = (200, 150)
 """Position of the cylinder in `forage`: x and y in mm."""
 
 
-def _robot(run: dict[str, Any]) -> tuple[Any, Any, int]:
+def _robot(run: Run) -> tuple[Any, Any, int]:
     """Return problem, policy with the run's best robot, and steps of an episode."""
     from botschool import problems
     from botschool.config import from_dict
@@ -29,7 +31,7 @@ def _robot(run: dict[str, Any]) -> tuple[Any, Any, int]:
     return problem, policy, experiment.policy.maxsteps
 
 
-def record(run: dict[str, Any], seed: int = 1) -> dict[str, Any]:
+def record(run: Run, seed: int = 1) -> dict[str, Any]:
     """Play an episode of a planar runner's best robot and record it.
 
     "duration" is the length of a step in seconds. "distance", shape (T + 1,), is the distance in
@@ -44,7 +46,7 @@ def record(run: dict[str, Any], seed: int = 1) -> dict[str, Any]:
     return runner.record(np.asarray(run["genotype"]), seed)
 
 
-def play_again(run: dict[str, Any], seed: int = 1, episodes: int = 100) -> np.ndarray:
+def play_again(run: Run, seed: int = 1, episodes: int = 100) -> np.ndarray:
     """Return the returns of a run's best robot in new episodes, shape (episodes,)."""
     if "ppo" in run["experiment"]:
         from botschool.labs.training import filled, play
@@ -58,7 +60,7 @@ def play_again(run: dict[str, Any], seed: int = 1, episodes: int = 100) -> np.nd
     return problem.evaluate(policy, genotype[None], normalisation, batch, steps).fitness
 
 
-def forage(run: dict[str, Any], forget: bool = False) -> list[dict[str, np.ndarray]]:
+def forage(run: Run, forget: bool = False) -> list[dict[str, np.ndarray]]:
     """Let a run's best Khepera search for the cylinder from 12 places, and record each episode.
 
     "poses", shape (T + 1, 3): x and y in mm and the heading in rad, at the start and after each
@@ -88,7 +90,7 @@ def forage(run: dict[str, Any], forget: bool = False) -> list[dict[str, np.ndarr
     return recorded
 
 
-def swing(run: dict[str, Any], gravity: float = 10.0, episodes: int = 10) -> dict[str, np.ndarray]:
+def swing(run: Run, gravity: float = 10.0, episodes: int = 10) -> dict[str, np.ndarray]:
     """Let a run's best pendulum swing under this gravity in m/s2 (it evolved under 10).
 
     "angles", shape (episodes, 201): rad from upright, -pi to pi, at the start and after each step.
@@ -116,7 +118,7 @@ def swing(run: dict[str, Any], gravity: float = 10.0, episodes: int = 10) -> dic
     }
 
 
-def chases(run: dict[str, Any], best: int = 5) -> np.ndarray:
+def chases(run: Run, best: int = 5) -> np.ndarray:
     """Let the best predators and prey of all saved generations of a run meet.
 
     Return the predators' fitness, shape (G, n, G, n): entry [g, i, h, j] belongs to predator i of
@@ -210,7 +212,7 @@ def power(one: ArrayLike, other: ArrayLike, runs: int, seed: int = 1) -> float:
     return float((p < 0.05).mean())
 
 
-def load_runs(folder: str | Path = ".") -> dict[str, list[dict[str, Any]]]:
+def load_runs(folder: str | Path = ".") -> dict[str, list[Run]]:
     """Return your finished runs: condition -> runs, each as `measure` gets it.
 
     folder: the laboratory's, such as lab09. Raises BotschoolError if a condition has no runs yet.
