@@ -12,7 +12,7 @@ import pytest
 
 from botschool.errors import BotschoolError
 from botschool.grading.classes.policy import LateRule, read_policy
-from botschool.grading.classes.similar import Program, similar_pairs, similarity_page
+from botschool.grading.classes.similar import Program, grouped, similar_pairs, similarity_page
 from botschool.grading.classes.statistics import by_task, hardest, statistics_page
 from botschool.grading.classes.tables import safe_cell
 from botschool.grading.copies.skeleton import skeleton
@@ -392,8 +392,74 @@ def test_a_copy_with_other_names_is_found_and_the_skeleton_does_not_count():
     )
     assert similar_pairs([Program("a", given), Program("b", given)], given) == []
     same = [Program(f"s{i}", OTHER) for i in range(9)]
-    (pair,) = similar_pairs(programs + same, given)  # and not 55 pairs
+    (pair,) = grouped(similar_pairs(programs + same, given))  # and not 55 pairs
     assert len(pair.also) == 9 and "; also " in similarity_page({3: (15, [pair])})
+
+
+@pytest.mark.slow
+def test_a_copy_of_our_solution_is_told_to_the_instructor_alone(course, tmp_path):
+    renamed = SOLUTION.replace("numbers", "xs").replace("twice_as_large_as_before", "answer")
+    first, second = renamed.index("def double"), renamed.index("def total")
+    end = renamed.index("if __name__")
+    reordered = renamed[:first] + renamed[second:end] + renamed[first:second] + renamed[end:]
+    own = SOLUTION.replace("float(np.sum(np.asarray(xs", "float(np.sum(np.asarray(xs")
+    own = (
+        own.replace("numbers_of_the_students = np.asarray(numbers)", "found = []")
+        .replace(
+            "twice_as_large_as_before = 2 * numbers_of_the_students",
+            "for row in numbers:\n        found.append(row + row)",
+        )
+        .replace("return twice_as_large_as_before", "return np.array(found)")
+        .replace(
+            "return float(np.sum(np.asarray(numbers, dtype=np.float64).ravel()))",
+            "result = 0.0\n    for number in numbers:\n        result += number\n    return result",
+        )
+    )
+    files = {"ada": SOLUTION, "bob": f"# mine\n{reordered}", "eve": own}
+    written(tmp_path / "class", {f"{name}/{FILE}": text.encode() for name, text in files.items()})
+    _, out, errors = call("grade-all", tmp_path / "class", "-e", "3", "-o", tmp_path / "out")
+    assert errors == "" and "similar.html: ada, bob." in " ".join(out.split())
+    notes = {row["student"]: row["notes"] for row in rows_of(tmp_path / "out" / "grades.csv")}
+    assert "100% like our solution" in notes["ada"] and "100% like our" in notes["bob"]
+    assert "like our" not in notes["eve"]
+    assert "like our" not in (tmp_path / "out" / "feedback" / "ada.html").read_text()
+    assert "our solution" in (tmp_path / "out" / "similar.html").read_text()
+
+
+@pytest.mark.slow
+def test_tasks_are_dropped_and_weighed_for_release_and_grading_alike(course, tmp_path):
+    settings(tmp_path, "tasks: {3.1: 7, 3.2: 0}\n")
+    written(tmp_path / "class", {f"ada/{FILE}": SOLUTION.encode(), f"bob/{FILE}": HALF.encode()})
+    assert call("grade-all", tmp_path / "class", "-e", "3", "-o", tmp_path / "out")[0] == 0
+    rows = rows_of(tmp_path / "out" / "grades.csv")
+    assert [row["total"] for row in rows] == ["7", "0"] and "3.2" not in rows[0]
+    copy = tmp_path / "copy"
+    arguments = ("release", copy, "--class", tmp_path / "class.yaml", "--no-answers")
+    assert call(*arguments, cwd=course)[::2] == (0, "")
+    assert (copy / "exercises" / "tasks.txt").read_text() == "3.1=7 3.2=0\n"
+
+
+@pytest.mark.slow
+def test_folders_with_a_dot_and_windows_zip_files(course, tmp_path):
+    packed = bytearray(zipped({FILE: SOLUTION.encode()}))
+    for sign, at in ((b"PK\x03\x04", 8), (b"PK\x01\x02", 10)):
+        packed[packed.index(sign) + at] = 9  # Deflate64
+    files = {f"...z/{FILE}": SOLUTION.encode(), "eve/work.zip": bytes(packed)}
+    written(tmp_path / "class", files)
+    assert call("grade-all", tmp_path / "class", "-o", tmp_path / "out")[0] == 0
+    dots, eve = rows_of(tmp_path / "out" / "grades.csv")
+    assert (dots["student"], dots["total"]) == ("...z", "100")
+    assert "is packed by a method that Python cannot unpack" in eve["notes"]
+
+
+@pytest.mark.slow
+def test_groups_of_another_exercise_stop_nothing(course, tmp_path):
+    written(tmp_path / "class", {f"ada/{FILE}": SOLUTION.encode()})
+    roster(tmp_path, "group,student,exercise\nRed,nobody@x.org,2\nRed,ada,2\n", "groups.csv")
+    people = roster(tmp_path, "name,user\nAda Berg,ada\n")
+    settings(tmp_path, "groups: groups.csv\n")
+    arguments = ("grade-all", tmp_path / "class", "-e", "3", "-o", tmp_path / "out")
+    assert call(*arguments, "--roster", people)[::2] == (0, "")
 
 
 # --- laboratories

@@ -229,6 +229,12 @@ def release(
             metavar="FILE",
         ),
     ] = None,
+    settings: Annotated[
+        Path | None,
+        typer.Option(
+            "--class", help="A class.yaml, whose 'tasks' the copy has, too.", metavar="FILE"
+        ),
+    ] = None,
 ) -> None:
     """For instructors: make a copy of the course for students, without solutions.
 
@@ -237,9 +243,10 @@ def release(
 
     In an existing copy, the command keeps edited files and the answers of the exercises.
     """
+    from botschool.grading.classes.commands import tasks_of
     from botschool.grading.copies.commands import release_command
 
-    release_command(folder, exercises, answers, wheel or [])
+    release_command(folder, exercises, answers, wheel or [], tasks_of(settings))
 
 
 ClassList = Annotated[

@@ -24,6 +24,7 @@ from types import MappingProxyType
 from typing import Any
 
 from botschool.errors import BotschoolError
+from botschool.grading.declare import weights
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import Exercise, Number, folder_of, load_exercise
 from botschool.grading.declare.state import DEFAULT, STATE, VARIABLE, given_secret, make_state
@@ -233,7 +234,7 @@ class Grades:
     def _key(self, job: Job) -> str:
         digest = content_digest(job.file)
         digest.update(f"{self._secret}\n{_versions(self._root, job.number)}\n".encode())
-        rule = os.environ.get(SYNTAX, "")
+        rule = f"{os.environ.get(SYNTAX, '')} {os.environ.get(weights.VARIABLE, '')}".strip()
         digest.update(f"{job.file.name} {job.tasks} {rule}".encode(errors="surrogateescape"))
         return digest.hexdigest()
 

@@ -19,6 +19,7 @@ from botschool.grading.classes.rules import Policy
 from botschool.grading.classes.statistics import by_task, hardest
 from botschool.grading.classes.term import TABLE as TERM
 from botschool.grading.classes.term import Term, read_output, say_term, write_term
+from botschool.grading.declare import weights
 from botschool.grading.declare.exercise import Number, course_root, selected
 from botschool.grading.declare.state import secret_for_others
 from botschool.grading.judge.submission import SYNTAX
@@ -73,6 +74,7 @@ def grade_all_command(
     console = Console(highlight=False)
     policy = _policy(folder.absolute().parent, roster, gradebook, column, settings)
     os.environ[SYNTAX] = policy.syntax
+    os.environ[weights.VARIABLE] = weights.text_of(policy.tasks)
     secret, said = secret_for_others(root)
     close_class(folder, output)
     with counting("Grading", console) as (start, step):
@@ -144,6 +146,11 @@ def _policy(
             "column that takes the grades with --column, or the table with --roster."
         )
     return policy
+
+
+def tasks_of(settings: Path | None) -> str:
+    """Return the points of tasks in a class.yaml, as in declare/weights.py."""
+    return weights.text_of(read_policy(settings).tasks) if settings else ""
 
 
 def gradebook_command(

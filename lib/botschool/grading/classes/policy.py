@@ -33,7 +33,7 @@ _WHO = ("id", "email", "username", "student", "name")
 T = TypeVar("T")
 _KEYS = (
     "roster", "due", "late", "extensions", "adjustments", "submitted", "groups", "weights", "total",
-    "bonus", "syntax",
+    "bonus", "syntax", "tasks",
 )  # fmt: skip
 
 
@@ -196,6 +196,17 @@ class _Reader:
         if said not in ("yes", "no", "true", "false", "on", "off"):
             raise BotschoolError(f"'bonus: {value}' is neither yes nor no: write 'bonus: yes'.")
         return said in ("yes", "true", "on")
+
+    def tasks(self, value: Any) -> dict[str, int]:
+        what = "under 'tasks' a line for each task, as '3.2: 30'; 0 drops a task"
+        found: dict[str, int] = {}
+        for key, each in self._items(value, what):
+            with self._at(self._place(value, key)):
+                points = number_in(each, MOST_POINTS) if isinstance(each, str) else None
+                if points is None or points != int(points) or not re.fullmatch(r"\d+\.\d+", key):
+                    raise BotschoolError(f"write {what}.")
+                found[key] = int(points)
+        return found
 
     def syntax(self, value: Any) -> str:
         if value not in ("its task", EVERYTHING):

@@ -74,6 +74,8 @@ class Policy:
     """The points of a total in which nothing is missing; None for the weighted sum."""
     bonus: bool = False
     """Whether points above the maximum count."""
+    tasks: dict[str, int] = field(default_factory=dict)
+    """Points of tasks that differ from the graders'; 0 drops a task."""
     syntax: str = ""
     """What a syntax error costs: EVERYTHING, else only what stands there."""
     path: Path | None = None
@@ -111,9 +113,8 @@ class Policy:
         people = (self.extensions, self.adjustments, self.submitted)
         own = [sorted(map(str, self._own(each, wanted))) for each in people]
         due = sorted((str(k), str(v)) for k, v in self.due.items() if k in wanted)
-        told = repr(
-            (due, self.late, own, sorted(self.groups.items(), key=str), self.bonus, self.syntax)
-        )
+        groups, tasks = sorted(self.groups.items(), key=str), sorted(self.tasks.items())
+        told = repr((due, self.late, own, groups, self.bonus, self.syntax, tasks))
         return hashlib.sha256(told.encode()).hexdigest()[:16]
 
     def has_deadline(self, number: Number) -> bool:

@@ -7,6 +7,7 @@ look, not a proof.
 
 from __future__ import annotations
 
+import ast
 import io
 import itertools
 import keyword
@@ -29,7 +30,7 @@ LENGTH = 9
 """Tokens in a sequence to compare."""
 LEAST, MOST_PAIRS = 0.5, 20
 """Smallest similarity of pairs to show, and their number."""
-LIKE_OURS, SHARE = 0.85, 0.5
+LIKE_OURS, SHARE = 0.9, 0.5
 """Smallest similarity with our solution to show, and share of the solution that is in it."""
 OURS = "our solution"
 EQUAL = 0.995
@@ -59,6 +60,8 @@ class Pair:
     lines: tuple[frozenset[int], frozenset[int]]
     also: tuple[str, ...] = ()
     """Students whose programs equal these two."""
+    with_ours: bool = False
+    """Whether the second one is our solution."""
 
 
 def tokens(text: str) -> list[tuple[str, int]]:
@@ -91,6 +94,30 @@ def _sequences(text: str) -> dict[tuple[str, ...], set[int]]:
     return found
 
 
+def _parts(text: str) -> list[str]:
+    """Return a program's statements without layout, comments, annotations and documentation.
+
+    The order of functions does not count, since each statement outside functions is a part.
+    """
+    try:
+        tree = ast.parse(text)
+        for node in ast.walk(tree):
+            body = getattr(node, "body", None)
+            if isinstance(body, list) and len(body) > 1 and isinstance(body[0], ast.Expr):
+                body[:1] = [] if isinstance(body[0].value, ast.Constant) else body[:1]
+            for name in ("annotation", "returns"):
+                if getattr(node, name, None) and not isinstance(node, ast.AnnAssign):
+                    setattr(node, name, None)
+        return [ast.unparse(node) for node in tree.body]
+    except (SyntaxError, ValueError, RecursionError):
+        return [text]
+
+
+def _both(text: str) -> tuple[set[tuple[str, ...]], dict[tuple[str, ...], set[int]]]:
+    """Return the sequences of a program's parts, and those of its text with their lines."""
+    return set().union(*map(_sequences, _parts(text))), _sequences(text)
+
+
 def similar_pairs(programs: Sequence[Program], skeleton: str, solution: str = "") -> list[Pair]:
     """Return the similar pairs, the most similar one first, our solution among the programs.
 
@@ -98,39 +125,40 @@ def similar_pairs(programs: Sequence[Program], skeleton: str, solution: str = ""
     """
     ours = Program(OURS, solution)
     programs = [*programs, ours] if solution else programs
-    given = _sequences(skeleton).keys()
+    given, given_lines = _both(skeleton)
     all_of = []
     for program in programs:
         try:
-            sequences = walled(_sequences, program.text)
+            sequences, lines = walled(_both, program.text)
         except Broken:
             continue
-        own = {key: lines for key, lines in sequences.items() if key not in given}
-        if len(own) >= MIN_SEQUENCES:
-            all_of.append((program, own))
-    having = Counter(key for _, own in all_of for key in own)
+        if len(sequences - given) >= MIN_SEQUENCES:
+            shown = {key: own for key, own in lines.items() if key not in given_lines}
+            all_of.append((program, sequences - given, shown))
+    having = Counter(key for _, own, _ in all_of for key in own)
     weight = {key: math.log((len(all_of) + 1) / count) for key, count in having.items()}
-    sums = [sum(weight[key] for key in own) for _, own in all_of]
+    sums = [sum(weight[key] for key in own) for _, own, _ in all_of]
     pairs = []
-    for (i, (first, a)), (j, (second, b)) in itertools.combinations(enumerate(all_of), 2):
-        if first.student == second.student:
+    numbered = enumerate(all_of)
+    for (i, (first, a, there)), (j, (second, b, here)) in itertools.combinations(numbered, 2):
+        if first.student == second.student and second is not ours:
             continue
-        common = a.keys() & b.keys()
         shorter = max(1e-9, min(sums[i], sums[j]))
-        similarity = min(1.0, sum(weight[key] for key in common) / shorter)
+        similarity = min(1.0, sum(weight[key] for key in a & b) / shorter)
         least = LEAST
         if second is ours:
-            least = LIKE_OURS if len(common) >= SHARE * len(b) else 2.0
+            least = LIKE_OURS if len(a & b) >= SHARE * len(b) else 2.0
         if similarity >= least:
-            lines = (_lines(a, common), _lines(b, common))
-            pairs.append(Pair(first, second, similarity, lines))
+            common = there.keys() & here.keys()
+            both = _lines(there, common), _lines(here, common)
+            pairs.append(Pair(first, second, similarity, both, with_ours=second is ours))
     pairs.sort(key=lambda pair: (-pair.similarity, pair.first.student, pair.second.student))
     return pairs
 
 
 def like_ours(pairs: Iterable[Pair]) -> dict[str, float]:
     """Return who handed in a program like our solution, and how similar it is."""
-    return {pair.first.student: pair.similarity for pair in pairs if pair.second.student == OURS}
+    return {pair.first.student: pair.similarity for pair in pairs if pair.with_ours}
 
 
 def grouped(pairs: Sequence[Pair]) -> list[Pair]:

@@ -17,6 +17,7 @@ from pathlib import Path
 from botschool.errors import BotschoolError
 from botschool.grading.copies.links import leave_out_what_no_text_shows
 from botschool.grading.copies.skeleton import find_leaks, pairs, skeleton
+from botschool.grading.declare import weights
 from botschool.grading.declare.exercise import exercise_numbers, folder_of
 from botschool.grading.declare.mistakes import case_text
 from botschool.grading.declare.trust import check_trusted, trust
@@ -76,6 +77,7 @@ def release(
     compiled: bool = True,
     wheels: Sequence[Path] = (),
     pages: bool = True,
+    tasks: str = "",
 ) -> Released:
     """Make the copy, or update it.
 
@@ -87,6 +89,7 @@ def release(
     compiled: whether the copy gets botschool's source and compiles it; otherwise it uses the
     installed botschool, or installs one of the wheels.
     pages: whether each exercise gets its living page, where the core for pages is built.
+    tasks: points of tasks, as in declare/weights.py.
 
     The function makes a new copy as a whole or not at all. An existing copy keeps its exercises,
     files that somebody has edited, and .git. Raises BotschoolError.
@@ -106,6 +109,8 @@ def release(
         with_answers = not manifest or any(name.endswith(f"/{PACKED}") for name in manifest)
     with _temporary(target) as made:
         _build(root, made, numbers, compiled)
+        if tasks:
+            (made / weights.FILE).write_text(f"{tasks}\n", encoding="utf-8")
         for wheel in wheels:
             (made / WHEELS).mkdir(exist_ok=True)
             shutil.copy(wheel, made / WHEELS)

@@ -8,7 +8,7 @@ import importlib.util
 import linecache
 import re
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from importlib import metadata
 from pathlib import Path
@@ -22,6 +22,7 @@ from botschool.grading.declare.picture import Picture
 from botschool.grading.declare.references import pruned
 from botschool.grading.declare.state import DEFAULT, given_secret, slow_key
 from botschool.grading.declare.trust import check_trusted
+from botschool.grading.declare.weights import chosen, shared_out
 from botschool.paths import course_root, for_make
 
 POINTS = 100
@@ -118,6 +119,8 @@ class Exercise:
         self.extras = extras
         self.packages = extras if packages is None else packages
         self.tasks: list[Task] = []
+        self.dropped: list[Task] = []
+        """Tasks that the class's settings leave out; others may need their functions."""
         self.secret = ""
         """The secret for the seeds; "" means BOTSCHOOL_GRADING_SEED, or else DEFAULT."""
         self.work = ""
@@ -164,6 +167,17 @@ class Exercise:
         given = needs, Refused(refused), extras, self
         self.tasks.append(Task(id, title, seconds, memory, *given))
         return self.tasks[-1]
+
+    def weigh(self, points: Mapping[str, int]) -> None:
+        """Give tasks other points, shared out among their checks; drop those with 0."""
+        for id, most in points.items():
+            task = self.find(id)
+            shares = shared_out([own for own, _, _ in task.checks], most)
+            task.checks = [
+                (own, *more) for own, (_, *more) in zip(shares, task.checks, strict=True)
+            ]
+        self.dropped += [task for task in self.tasks if points.get(task.id) == 0]
+        self.tasks = [task for task in self.tasks if task not in self.dropped]
 
     def needed(self, task: Task) -> list[Task]:
         """Return the tasks that a task needs, directly or indirectly, in the exercise's order."""
@@ -232,7 +246,7 @@ class Exercise:
 
     def find(self, task: str) -> Task:
         """Return the task with that id. Raises BotschoolError."""
-        for each in self.tasks:
+        for each in (*self.tasks, *self.dropped):
             if each.id == task:
                 return each
         known = ", ".join(each.id for each in self.tasks)
@@ -291,6 +305,7 @@ def load_exercise(number: int, root: Path | None = None) -> Exercise:
     solution = root / "solutions" / folder.name / exercise.file
     if not exercise.known.solution and solution.is_file():
         exercise.knows(solution.read_text(encoding="utf-8"), case_text(root, number))
+    exercise.weigh(chosen(root, number))
     return exercise
 
 
