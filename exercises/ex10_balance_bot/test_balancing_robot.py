@@ -285,7 +285,8 @@ once_more(stepping, 2, on_stage, parts=("truncated",), name="leaves_the_time_lim
     steps, (1, 0.0, 510)
 )
 
-registering = exercise.task("10.7", "A name for the environment", seconds=40)
+METHODS = ("10.2", "10.3", "10.4", "10.5", "10.6")
+registering = exercise.task("10.7", "A name for the environment", seconds=40, needs=METHODS)
 
 
 @same(registering, 5, registered, 1e-3)

@@ -33,7 +33,7 @@ PICTURES["11.3"] = Picture(
 PICTURES["11.4"] = Picture(
     "The loss falls from epoch to epoch, quickly at first.",
     "epoch", "loss", kind="curves",
-    call=lambda grader: (grader.trained, "train", [120, 0.05, 0.5], *network(grader)),
+    call=lambda grader: (grader.trained, "train", [120, 0.05, 0.5], "network", *network(grader)),
     of=lambda answer, *_: {"losses": answer["the list of losses"]},
 )  # fmt: skip
 PICTURES["11.9"] = Picture(

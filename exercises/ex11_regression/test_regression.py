@@ -118,8 +118,12 @@ same(by_torch, 7, BY_TORCH, SINGLE, parts=NAMES, off=DOUBLE, name=BY_TORCH)(and_
 loop = exercise.task("11.4", "The loop")
 
 
-def trained(module, name, settings, inputs, targets, w1, b1, w2, b2):
-    """{0}(network, inputs, targets, *{1})"""
+USED = "a network with numbers in .grad"
+"""What somebody computed before stands there, and must not count."""
+
+
+def trained(module, name, settings, which, inputs, targets, w1, b1, w2, b2):
+    """{0}({2}, inputs, targets, *{1})"""
     import torch
 
     layers = torch.nn.Linear(w1.shape[1], len(b1)), torch.nn.Linear(len(b1), len(b2))
@@ -127,20 +131,24 @@ def trained(module, name, settings, inputs, targets, w1, b1, w2, b2):
     with torch.no_grad():
         for layer, values in zip(made.parameters(), (w1, b1, w2, b2), strict=True):
             layer.copy_(torch.tensor(values))
+        for layer in made.parameters() if which != "network" else ():
+            layer.grad = torch.ones_like(layer)
     tensors = [torch.tensor(each, dtype=torch.float32) for each in (inputs, targets)]
     losses = [float(loss) for loss in getattr(module, name)(made, *tensors, *settings)]
     after = [layer.detach().numpy() for layer in made.parameters()]
     return {"the list of losses": losses, "the network (w1, b1, w2, b2)": after}
 
 
-def descents(rng, epochs, momentum):
+def descents(rng, epochs, momentum, *which):
     for sizes in SIZES[1:]:
         rate = round(float(rng.uniform(0.02, 0.1)), 3)
-        yield "train", [epochs, rate, momentum], *drawn(rng, *sizes)
-    yield "train", [epochs, rate, momentum], *(0 * each for each in drawn(rng, *SIZES[1]))
+        for network in ("network", *which):
+            yield "train", [epochs, rate, momentum], network, *drawn(rng, *sizes)
+    zeros = (0 * each for each in drawn(rng, *SIZES[1]))
+    yield "train", [epochs, rate, momentum], "network", *zeros
 
 
-same(loop, 4, trained, 1e-3, name="one_epoch")(descents, 1, 0.0)
+same(loop, 4, trained, 1e-3, name="one_epoch")(descents, 1, 0.0, USED)
 same(loop, 5, trained, 1e-3, name="many_epochs")(descents, 25, 0.0)
 same(loop, 4, trained, 1e-3, name="momentum")(descents, 25, 0.8)
 
@@ -301,7 +309,7 @@ def a_step_for_each_minibatch(rng):
     for sizes, batch_size in itertools.product(SIZES[1:], (2, 3)):
         rate = round(float(rng.uniform(0.02, 0.1)), 3)
         settings = [6, batch_size, rate, 0.5, seed_of(rng)]
-        yield "train_in_batches", settings, *drawn(rng, *sizes)
+        yield "train_in_batches", settings, "network", *drawn(rng, *sizes)
 
 
 any_set = exercise.task("11.8", "Any training set", seconds=90, needs=("11.1", "11.6", "11.7"))

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from botschool.grading import Exercise, Student, Wrong, expect_close
+from botschool.grading import Exercise, Student, Wrong, expect_close, same
 from botschool.grading.declare.exercise import exercise_numbers, load_exercise
 from botschool.grading.declare.references import functions_of, pruned
 from botschool.grading.judge.submission import grade
@@ -139,6 +139,50 @@ def test_what_is_not_done(graded):
     assert [task.points for task in graded(SUMS + LAST).tasks] == [0, 30, 30]  # smaller missing
 
 
+KIND = """import gymnasium
+
+class Robot(gymnasium.Env):
+    def reset(self, *, seed=None):
+        ### BEGIN SOLUTION task 3.1: reset
+        super().reset(seed=seed)
+        return self.np_random.normal()
+        ### END SOLUTION
+
+    def step(self):
+        ### BEGIN SOLUTION task 3.2: step
+        return self.np_random.normal()
+        ### END SOLUTION
+
+def play(seed):
+    ### BEGIN SOLUTION task 3.3: play
+    robot = Robot()
+    return [robot.reset(seed=seed), robot.step()]
+    ### END SOLUTION
+"""
+
+
+def episode(module, seed):
+    """Robot: reset(), step()"""
+    robot = module.Robot()
+    return [robot.reset(seed=seed), robot.step()]
+
+
+def test_one_method_of_a_class_costs_once(messages):
+    """A reset that draws before its seed cost the task that plays episodes as well."""
+    exercise = Exercise(3, "Three", FILE)
+    tasks = [exercise.task(f"3.{i}", "A", needs=("3.1",) if i == 3 else ()) for i in (1, 2, 3)]
+    same(tasks[0], 40, episode)(lambda rng: [(3,), (4,)])
+    same(tasks[1], 20, episode)(lambda rng: [(5,)])
+    same(tasks[2], 40, "play")(lambda rng: [(3,), (4,)])
+    exercise.knows(KIND)
+    first, _, last = messages(KIND.replace("super().reset(seed=seed)", "super().reset()"), exercise)
+    assert first
+    assert last == (
+        "This task builds on task 3.1 (Robot.reset), which does not pass yet. With our solution in "
+        "its place, it gets all of its points."
+    )
+
+
 HOSTILE = """
 import gc, inspect, sys
 def smaller(x): return 0
@@ -245,7 +289,11 @@ def test_packed_with_the_grader(tmp_path):
 
 def called(solution):
     """task -> other tasks whose functions its own functions use, as global names."""
-    owner = {name: task for task, names in functions_of(solution).items() for name in names}
+    owners = {}
+    for task, names in functions_of(solution).items():
+        for name in names:
+            owners.setdefault(name.partition(".")[0], {})[name] = task
+    owner = {name: tasks[name] for name, tasks in owners.items() if name in tasks}
     found = {}
     waiting = [(each, None) for each in symtable.symtable(solution, "x", "exec").get_children()]
     while waiting:
@@ -253,9 +301,9 @@ def called(solution):
         task = task or owner.get(table.get_name())
         waiting += [(each, task) for each in table.get_children()]
         for symbol in table.get_symbols():
-            other = owner.get(symbol.get_name()) if symbol.is_global() else None
-            if task and other and other != task:
-                found.setdefault(task, set()).add(other)
+            others = owners.get(symbol.get_name(), {}) if symbol.is_global() else {}
+            if task and (others := {*others.values()} - {task}):
+                found.setdefault(task, set()).update(others)
     return found
 
 

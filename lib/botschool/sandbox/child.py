@@ -125,14 +125,30 @@ def _differ(old: Any, new: Any) -> bool:
 
 
 def substitute(module: Any, references: dict[str, Any]) -> None:
-    """Replace functions of the untrusted module by others.
+    """Replace functions of the untrusted module by others, and methods of its classes.
 
-    references: {"source": text of a file, "names": of its functions}.
+    references: {"source": text of a file, "names": of its functions, "Class.method" for a method}.
     """
     other: dict[str, Any] = {"__name__": "references"}
     exec(compile(references["source"], "<references>", "exec"), other)
     for name in references["names"]:
-        setattr(module, name, other[name])
+        owner, _, method = name.rpartition(".")
+        if not owner:
+            setattr(module, name, other[name])
+        elif isinstance(kind := getattr(module, owner, None), type):
+            setattr(kind, method, _method_of(kind, vars(other[owner])[method]))
+
+
+def _method_of(kind: type, function: Any) -> Any:
+    """Return a method of another class for this one: super() must mean its parent."""
+    cells = zip(function.__code__.co_freevars, function.__closure__ or (), strict=True)
+    closure = [types.CellType(kind) if name == "__class__" else cell for name, cell in cells]
+    method = types.FunctionType(
+        function.__code__, function.__globals__, function.__name__, function.__defaults__,
+        tuple(closure) or None,
+    )  # fmt: skip
+    method.__kwdefaults__ = function.__kwdefaults__
+    return method
 
 
 def answer_to(module: Any, message: bytes, file: Path, pipes: Pipes) -> bytes:

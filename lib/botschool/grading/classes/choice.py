@@ -15,6 +15,7 @@ from botschool.grading.classes.texts import MAX_NOTEBOOK, MAX_TEXT
 from botschool.grading.classes.unpack import kind_of, may_hold_code
 from botschool.grading.classes.wall import Broken, broken, walled
 from botschool.grading.declare.checks import plain
+from botschool.grading.declare.mistakes import CASES
 from botschool.grading.declare.exercise import Exercise, Number
 from botschool.paths import for_make
 
@@ -206,7 +207,7 @@ def _left(one: Person, root: Path) -> list[str]:
     for file in one.handed.files:
         inner = [file.shown[len(top) :] for top in tops if file.shown.startswith(top)]
         given = any(_is_given(name, root, copies) for name in inner)
-        if not given and file not in used and file.name != TIMESTAMP:
+        if not given and file not in used and file.name not in (TIMESTAMP, CASES):
             names.append(file.shown)
     if not one.files and len(one.handed.files) <= MAX_NAMED:
         names = []  # the problem of each exercise names them

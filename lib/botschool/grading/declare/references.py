@@ -21,15 +21,21 @@ _FUNCTIONS = (ast.FunctionDef, ast.ClassDef)
 
 
 def functions_of(solution: str) -> dict[str, list[str]]:
-    """Return task -> the functions and classes that belong to it alone."""
-    found: dict[str, list[str]] = {}
+    """Return task -> the functions and classes that belong to it alone.
+
+    Of a class that belongs to several tasks, it is the methods: "Robot.reset".
+    """
+    names: dict[str, list[str]] = {}
     lines = solution.split("\n")
     for node in ast.parse(solution).body:
-        if isinstance(node, _FUNCTIONS):
-            tasks = _tasks(lines, node)
-            if len(tasks) == 1:
-                found.setdefault(tasks.pop(), []).append(node.name)
-    return found
+        tasks = _tasks(lines, node)
+        if len(tasks) == 1:
+            names.setdefault(tasks.pop(), []).append(node.name)
+        elif isinstance(node, ast.ClassDef):
+            for method in node.body:
+                if len(tasks := _tasks(lines, method)) == 1:
+                    names.setdefault(tasks.pop(), []).append(f"{node.name}.{method.name}")
+    return names
 
 
 def pruned(solution: str, tasks: Iterable[str]) -> str:
@@ -38,12 +44,15 @@ def pruned(solution: str, tasks: Iterable[str]) -> str:
     Functions of other tasks are left out.
     """
     tasks, lines, functions = set(tasks), solution.split("\n"), functions_of(solution)
-    nodes = [
-        node
-        for node in ast.parse(solution).body
-        if not isinstance(node, ast.If) and _tasks(lines, node) <= tasks
-    ]
-    wanted = {name for task in tasks for name in functions.get(task, ())}
+    nodes = list[ast.stmt]()
+    for node in ast.parse(solution).body:
+        if isinstance(node, ast.ClassDef) and not _tasks(lines, node) <= tasks:
+            node.body = [part for part in node.body if set() < _tasks(lines, part) <= tasks]
+            if node.body:
+                nodes.append(node)
+        elif not isinstance(node, ast.If) and _tasks(lines, node) <= tasks:
+            nodes.append(node)
+    wanted = {name.partition(".")[0] for task in tasks for name in functions.get(task, ())}
     if not wanted:
         return ""
     kept: list[ast.stmt] = []
@@ -51,8 +60,16 @@ def pruned(solution: str, tasks: Iterable[str]) -> str:
         kept += new
         wanted |= {name for node in new for name in _used(node)}
     kept += [n for n in nodes if isinstance(n, ast.Expr) and _used(n) and _used(n) <= wanted]
-    texts = [ast.get_source_segment(solution, node) for node in nodes if node in kept]
-    return "\n\n\n".join(text for text in texts if text) + "\n"
+    return "\n\n\n".join(_text(lines, node) for node in nodes if node in kept) + "\n"
+
+
+def _text(lines: list[str], node: ast.stmt) -> str:
+    """Return a statement's text, of a class that of the methods left in it."""
+    if not isinstance(node, ast.ClassDef):
+        return "\n".join(lines[node.lineno - 1 : node.end_lineno])
+    bases = ", ".join(map(ast.unparse, node.bases))
+    parts = ["\n".join(lines[part.lineno - 1 : part.end_lineno]) for part in node.body]
+    return "\n\n".join([f"class {node.name}({bases}):", *parts])
 
 
 def _tasks(lines: list[str], node: ast.stmt) -> set[str]:

@@ -39,7 +39,7 @@ Inputs = Callable[..., Iterable[Any]]
 KEEPS = {
     "draw": "other inputs, drawn as under another secret",
     "again": "the same call later, in a new process",
-    "kept": "an answer, looked at after another call",
+    "kept": "an answer, looked at after another call; then other numbers in the same arrays",
     "changes": "one argument changed at a time",
     "square": "arrays cut to a square",
     "one": "arrays cut to size one",
@@ -166,23 +166,33 @@ class Same:
     def _keep_an_answer(self, student: Any) -> None:
         """Raise Wrong if another call changes an answer; the first check of a function tries it."""
         checks = [each for _, _, each in self.task.checks if isinstance(each, Same)]
-        arguments, others = self._pairs()[0]
         first = next(each for each in checks if each.what == self.what) is self
         if callable(self.what) or not first or "kept" in self.off:
             return
+        pairs = self._pairs()
+        different = (pair for pair in pairs if pack([*pair[0]]) != pack([*pair[1]]))
+        arguments, others = next(different, pairs[0])
         ours = self.task.exercise.ours.answer(self.what, arguments)
-        if ours.seconds > QUICK or not isinstance(ours.value, (np.ndarray, list, dict)):
+        kinds = (np.ndarray, list, dict)
+        if ours.seconds > QUICK or not any(isinstance(e, kinds) for e in (ours.value, *arguments)):
             return
-        said = f"{self.what}({', '.join(map(argument, arguments))}), looked at after another call,"
+        shown = f"{self.what}({', '.join(map(argument, arguments))})"
+        after = self.task.exercise.ours.answer(self.what, others)
         try:
             with student.within(PATIENCE, _before_another):
                 both = self.what, [*arguments], [*others]
-                answer = student.run(_before_another, *both, said=said)
-            wanted = self.seen("", ours.value, arguments)
-            alike(said, self.seen(said, answer, arguments), wanted, self.tolerance, self.parts)
+                answer, again = student.run(_before_another, *both, said=shown)
+            self._alike(f"{shown}, looked at after another call,", answer, ours.value, arguments)
+            if not after.raised and _finite(after.value):
+                said = f"{shown} and then again, with other numbers in the same arrays,"
+                self._alike(said, again, after.value, others)
         except Wrong as error:
             error.args, error.stays = (f"{error} {KEPT}",), True
             raise
+
+    def _alike(self, said: str, answer: Any, wanted: Any, arguments: tuple) -> None:
+        wanted = self.seen("", wanted, arguments)
+        alike(said, self.seen(said, answer, arguments), wanted, self.tolerance, self.parts)
 
     def _compare(self, student: Any, arguments: tuple, kept: str = "") -> None:
         ours = self.task.exercise.ours.answer(self.what, arguments)
@@ -291,10 +301,37 @@ class Same:
 
 
 def _before_another(module, name, arguments, others):
-    """Return an answer as it is after another call; runs in the child."""
-    answer = getattr(module, name)(*arguments)
-    getattr(module, name)(*others)
-    return answer
+    """Return an answer as it is after another call, and the one to the same arrays, changed.
+
+    Runs in the child.
+    """
+    import copy
+
+    import numpy
+
+    def changed(value, other):
+        """Return a value that holds what another one holds, if it can: it is the same object."""
+        if type(value) is not type(other):
+            return other
+        if isinstance(value, numpy.ndarray):
+            if (value.shape, value.dtype) != (other.shape, other.dtype):
+                return other
+            value[...] = other
+        elif isinstance(value, dict) and value.keys() == other.keys():
+            value.update({key: changed(value[key], other[key]) for key in value})
+        elif isinstance(value, list):
+            value[:] = other
+        else:
+            return other
+        return value
+
+    function = getattr(module, name)
+    answer = function(*arguments)
+    function(*others)
+    kept = copy.deepcopy(answer)
+    function(*arguments)  # what is kept of the last call only is kept of these
+    now = [changed(value, other) for value, other in zip(arguments, others, strict=True)]
+    return [kept, function(*now)]
 
 
 def alike(said: str, got: Any, wanted: Any, tolerance: float, parts: tuple[str, ...] = ()) -> None:

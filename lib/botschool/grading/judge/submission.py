@@ -228,7 +228,7 @@ class Submission:
         if not exercise.references or not task.needs or result.undone == task.id:
             return result
         needed = exercise.needed(task)
-        functions = functions_of(exercise.references)
+        functions = functions_of(exercise.known.solution or exercise.references)
         broken = [
             other
             for other in needed
