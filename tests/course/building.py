@@ -8,6 +8,7 @@ sections, too: a name, a line that says what is hostile, and code.
 import ast
 import hashlib
 import re
+import sys
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -126,22 +127,54 @@ class Case(mistakes.Case):
         """The text of the submission."""
         return self.of(source(self.number).solution)
 
-    def tasks(self, exercise: Exercise) -> list[Task] | None:
-        """The tasks that a wrong solution can reach; None for all, which each fortieth case gets.
+    @property
+    def needs_a_process(self) -> bool:
+        """Whether this process cannot judge it: no Python, a long task, a package of its own."""
+        try:
+            more = imported(self.submission) - imported(source(self.number).solution)
+        except SyntaxError:
+            return True
+        long = {*self.loses} & long_tasks(self.number)
+        return bool(long or more - sys.stdlib_module_names - {"numpy"})
 
-        Long ones only if they lose points.
-        """
+    def tasks(self, exercise: Exercise) -> list[Task]:
+        """The tasks that a wrong solution can reach. Long ones only if they lose points."""
         try:
             reached = source(self.number).reached(self.submission)
         except SyntaxError:
-            return None
-        if hashlib.sha256(str(self).encode()).digest()[0] % 40 == 0:
-            return None
+            return exercise.tasks
         return [
             task
             for task in exercise.tasks
             if task.id in self.loses or (task.id in reached and task.seconds <= QUICK)
         ]
+
+
+@cache
+def long_tasks(number: int) -> frozenset[str]:
+    """The tasks of an exercise that may take long."""
+    return frozenset(task.id for task in exercise(number).tasks if task.seconds > QUICK)
+
+
+@cache
+def imported(text: str) -> set[str]:
+    """The packages that a text imports."""
+    nodes = [*ast.walk(ast.parse(text))]
+    names = {each.name for node in nodes if isinstance(node, ast.Import) for each in node.names}
+    names |= {node.module or "" for node in nodes if isinstance(node, ast.ImportFrom)}
+    return {name if "botschool" in name else name.partition(".")[0] for name in names}
+
+
+def confined(cases: list[Case], many: int) -> list[Case]:
+    """Return those that need a process, and some others, so many of each exercise at least."""
+    chosen = []
+    for number in GRADED:
+        own = [case for case in cases if case.number == number]
+        own.sort(key=lambda case: hashlib.sha256(str(case).encode()).digest())
+        needy = [case for case in own if case.loses and case.needs_a_process]
+        others = [case for case in own if case not in needy]
+        chosen += [*needy, *others[: max(many - len(needy), many // 2)]]
+    return chosen
 
 
 def sections(path: Path) -> list[tuple[str, str]]:

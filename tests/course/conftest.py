@@ -1,13 +1,17 @@
 """Many submissions are graded one after another here: the fork server is kept between them."""
 
 import contextlib
+import importlib
+import warnings
 
 import pytest
 
+import building
 from botschool.grading.judge import submission
 from botschool.grading.judge.points import TaskResult
 from botschool.grading.run.confined import fork_server
 from botschool.grading.run.ours import ours_of
+from direct import DirectOurs
 
 
 def pytest_addoption(parser):
@@ -24,6 +28,35 @@ def secrets(request):
     """The secrets that --secrets asks for."""
     many = request.config.getoption("secrets")
     return [f"secret of number {number:04}" for number in range(1, many + 1)]
+
+
+@pytest.fixture(scope="session")
+def here():
+    """Loads an exercise whose answers are ours in this process; the last one is kept."""
+    with contextlib.ExitStack() as stack:
+        kept = {}
+
+        def load(number):
+            if number not in kept:
+                kept.clear()
+                stack.pop_all().close()
+                exercise = kept[number] = building.exercise(number)
+                for name in exercise.imports:  # an alarm must not cut an import short
+                    importlib.import_module(name)
+                exercise.ours = stack.enter_context(DirectOurs(exercise.known.solution))
+            return kept[number]
+
+        yield load
+
+
+@pytest.fixture
+def elsewhere(monkeypatch, tmp_path):
+    """Let drivers write their files in a folder of their own."""
+    monkeypatch.setenv("BOTSCHOOL_COURSE", str(building.ROOT))
+    monkeypatch.chdir(tmp_path)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        yield
 
 
 @pytest.fixture(scope="session")

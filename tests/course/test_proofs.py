@@ -15,8 +15,11 @@ from botschool.grading.copies.skeleton import find_leaks, pairs
 from botschool.grading.declare.mistakes import THIS
 from botschool.grading.judge.sentence import TOLD, line_about
 from botschool.grading.report.hints import read_hints
+from direct import lost
 
 MUTANTS = building.wrong()
+WRONG, RIGHT = 7, 3
+"""Wrong and right answers to an exercise that are graded confined; all others in this process."""
 NAMED = 8
 """So many mutants of an exercise, at least, get a message that names the mistake."""
 STOCHASTIC = re.compile(r"\b(margin|20 seeds|twenty seeds)\b", re.IGNORECASE)
@@ -135,9 +138,22 @@ def test_a_change_reaches_what_uses_it():
 
 
 @pytest.mark.course
+@pytest.mark.usefixtures("elsewhere")
 @pytest.mark.parametrize("mutant", MUTANTS, ids=str)
-def test_mutant_loses_what_it_names(grade, mutant, tmp_path):
-    """And no other task that it can reach; a message that is to name the mistake does."""
+def test_mutant_loses_what_it_names(here, mutant):
+    """And no other quick task that it can reach, in this process."""
+    if mutant.needs_a_process:
+        pytest.skip("it is graded confined")
+    exercise = here(mutant.number)
+    tasks = [task for task in mutant.tasks(exercise) if task.seconds <= building.QUICK]
+    why = lost(exercise, mutant.submission, tasks)
+    assert tuple(why) == mutant.loses, why
+
+
+@pytest.mark.course
+@pytest.mark.parametrize("mutant", building.confined(MUTANTS, WRONG), ids=str)
+def test_mutant_is_graded_confined(grade, mutant, tmp_path):
+    """It loses the same, and a message that is to name the mistake does."""
     file = building.write(tmp_path, mutant.number, mutant.submission)
     exercise = building.exercise(mutant.number)
     result = grade(exercise, file, mutant.tasks(exercise))
@@ -221,8 +237,18 @@ def test_three_that_write_everything_anew(number):
 
 
 @pytest.mark.course
+@pytest.mark.usefixtures("elsewhere")
 @pytest.mark.parametrize("alternative", ALTERNATIVES, ids=str)
-def test_alternative_gets_everything(grade, alternative, tmp_path):
+def test_alternative_gets_everything(here, alternative):
+    """Of all quick tasks, in this process."""
+    exercise = here(alternative.number)
+    tasks = [task for task in exercise.tasks if task.seconds <= building.QUICK]
+    assert not lost(exercise, alternative.submission, tasks, 20)
+
+
+@pytest.mark.course
+@pytest.mark.parametrize("alternative", building.confined(ALTERNATIVES, RIGHT), ids=str)
+def test_alternative_gets_everything_confined(grade, alternative, tmp_path):
     file = building.write(tmp_path, alternative.number, alternative.submission)
     result = grade(building.exercise(alternative.number), file)
     assert result.points == 100, [(task.id, task.message) for task in result.tasks if task.message]

@@ -15,8 +15,8 @@ from botschool.grading.classes.texts import MAX_NOTEBOOK, MAX_TEXT
 from botschool.grading.classes.unpack import kind_of, may_hold_code
 from botschool.grading.classes.wall import Broken, broken, walled
 from botschool.grading.declare.checks import plain
-from botschool.grading.declare.mistakes import CASES
 from botschool.grading.declare.exercise import Exercise, Number
+from botschool.grading.declare.mistakes import CASES
 from botschool.paths import for_make
 
 MAX_NAMED = 5

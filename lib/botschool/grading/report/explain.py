@@ -19,7 +19,7 @@ from botschool.grading.declare.values import kind, show
 from botschool.grading.judge.submission import opened
 from botschool.grading.report.calls import calls_of
 from botschool.grading.run.confined import fork_server
-from botschool.grading.run.debug import DirectStudent
+from botschool.grading.run.direct import Direct
 from botschool.grading.run.ours import ours_of
 from botschool.grading.run.student import Student
 
@@ -89,7 +89,7 @@ def debug_task(exercise: Exercise, id: str, file: Path) -> None:
     with (
         fork_server(exercise.imports) as server,
         closing(ours_of(exercise, server)) as exercise.ours,
-        closing(DirectStudent(file)) as student,
+        closing(Direct(file, through=True)) as student,
     ):
         for _, name, check in task.checks:
             try:
