@@ -1,37 +1,27 @@
 """The commands of grading: what they print and write, and how they refuse."""
 
 import base64
-import contextlib
 import csv
 import ctypes
 import json
-import os
 import platform
-import re
 import signal
 import subprocess
 import sys
 import time
-from concurrent.futures import ThreadPoolExecutor
 from html.parser import HTMLParser
-from io import StringIO
 
 import psutil
 import pytest
-from rich.console import Console
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes import batch
-from botschool.grading.classes.collect import grade_all, page_names
-from botschool.grading.copies import starting
+from botschool.grading.classes.collect import grade_all
 from botschool.grading.copies.release import MANIFEST, release
 from botschool.grading.copies.skeleton import find_leaks
 from botschool.grading.declare.exercise import load_exercise
-from botschool.grading.declare.state import grading_secret
 from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import grade
-from botschool.grading.report import showing
-from botschool.grading.report.progress import recall, remember, table
+from botschool.grading.report.progress import recall
 from botschool.grading.report.screen import Screen, Watched, watch
 from botschool.grading.report.showing import show
 from botschool.sandbox import seccomp
@@ -153,18 +143,6 @@ def test_progress_shows_what_was_graded(course, monkeypatch):
     assert " 0 " in rows_of_progress()[0]["3"]
 
 
-def test_a_long_problem_leaves_the_table_readable():
-    task = {"id": "7.1", "title": "A step", "points": 2, "max_points": 5}
-    result = {"title": "A foraging robot", "points": 2, "max_points": 5, "tasks": [task]}
-    problem = "Exercise 10 needs pybullet: install it with 'pip install botschool[pybullet]'."
-    console = Console(width=80, file=StringIO())
-    console.print(table({7: result | {"problem": ""}, 10: result | {"problem": problem}}))
-    _, first, *rest = console.file.getvalue().splitlines()
-    assert re.fullmatch(r" 7  A foraging robot .* 2 +0/1  7\.1 A step *", first)
-    assert rest[0].startswith("10  A foraging robot") and len(rest) > 1
-    assert " ".join(line[53:].strip() for line in rest) == problem
-
-
 DAMAGED = ("1e400", "NaN", "-1", "41", "9" * 5000, "[3]", "true", "null", '"x"')
 """Points that no grading has stored."""
 
@@ -179,45 +157,6 @@ def test_points_that_no_grading_has_stored_do_not_count(course, points):
     for text, known in ((entry(points), False), (entry("39"), True)):
         written(course / ".botschool" / "last", {"ex03.json": text.encode()})
         assert bool(recall(course, exercise)[1]) == known
-
-
-@pytest.mark.slow
-def test_results_of_many_commands_at_once_are_all_kept(course):
-    """Read, change, write: without a lock, two thirds of them were lost."""
-    (course / ".botschool").mkdir()
-    start, ours = os.pipe()
-    children = []
-    for number in range(30):
-        children.append(os.fork())
-        if not children[-1]:
-            os.close(ours)
-            os.read(start, 1)  # until all are there
-            remember(course, 3, [(f"3.{number}", 1, 1)], "x")
-            os._exit(0)
-    os.close(ours)
-    assert {os.waitpid(child, 0)[1] for child in children} == {0}
-    assert len(json.loads((course / ".botschool" / "last" / "ex03.json").read_text())) == 30
-
-
-def test_commands_at_once_agree_on_one_secret(tmp_path, monkeypatch):
-    monkeypatch.delenv("BOTSCHOOL_GRADING_SEED", raising=False)
-    with ThreadPoolExecutor(8) as pool:
-        found = set(pool.map(lambda _: grading_secret(tmp_path)[0], range(40)))
-    assert len(found) == 1
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("damage", [b"5", b"null", b"{}", b"[" * 100_000, b"", b"\xff", "half"])
-def test_a_damaged_cache_is_graded_again(course, tmp_path, damage):
-    job = batch.Job(3, submit(tmp_path / "ada", SOLUTION), ("3.2",))
-    right = batch.Grades(course).of([job], 1)[job]
-    assert right["points"] == 40
-    (stored,) = (course / ".botschool" / "grades").iterdir()
-    content = stored.read_bytes()
-    stored.write_bytes(
-        content.replace(b'"points": 40', b'"points": 4 ') if damage == "half" else damage
-    )
-    assert batch.Grades(course).of([job], 1)[job] == right and stored.read_bytes() == content
 
 
 @pytest.mark.slow
@@ -238,23 +177,6 @@ def test_progress_without_a_file_or_with_a_damaged_store(course):
 def test_other_submissions_are_not_remembered(course):
     call("grade", "3", "--submission", "solutions", cwd=course)
     assert " 0 " in rows_of_progress()[0]["3"]
-
-
-@pytest.mark.slow
-def test_results_are_kept_by_content(course, tmp_path, monkeypatch):
-    file = submit(tmp_path / "one", SOLUTION)
-    job = batch.Job(3, file)
-    first = batch.Grades(course).of([job], 1)[job]
-    assert first["points"] == 100 and len(list((course / ".botschool/grades").iterdir())) == 1
-    monkeypatch.setattr(batch, "interpreter", lambda *a: ["/bin/false"])
-    assert batch.Grades(course).of([job], 1)[job] == first
-    assert "The grader failed" in batch.Grades(course, fresh=True).of([job], 1)[job]["problem"]
-    file.write_text(SOLUTION + "\n")
-    assert batch.Grades(course).of([job], 1)[job]["points"] == 0
-    monkeypatch.setattr(batch, "interpreter", lambda *a: ["sleep", "100"])
-    monkeypatch.setattr(batch, "WALL_FACTOR", 0)
-    monkeypatch.setattr(batch, "SPARE_SECONDS", 0.3)
-    assert "took longer" in batch.Grades(course).of([job], 1)[job]["problem"]
 
 
 @pytest.mark.slow
@@ -294,23 +216,6 @@ def test_watch_ends_with_ctrl_c(course):
     process.send_signal(signal.SIGINT)
     code, _, errors = finish(process, 60)
     assert code == 0 and "Traceback" not in errors
-
-
-def test_watch_ends_though_an_interrupt_was_dropped(course, monkeypatch, capsys):
-    """As Python does with one that meets a destructor."""
-    from botschool.grading import commands
-    from botschool.grading.report import screen as watching
-
-    def dropping(exercise, file, tasks, screen, wait):
-        with contextlib.suppress(KeyboardInterrupt):
-            signal.raise_signal(signal.SIGINT)
-        wait(0)
-        pytest.fail("it goes on")
-
-    monkeypatch.setattr(watching, "watch", dropping)
-    before = signal.getsignal(signal.SIGINT)
-    commands.watch_command("3.1", None)
-    assert signal.getsignal(signal.SIGINT) is before
 
 
 # --- a copy for students
@@ -376,19 +281,6 @@ def test_release_needs_a_place_of_its_own(course, tmp_path):
         release(course, tmp_path / "file")
     (tmp_path / "empty").mkdir()
     assert release(course, tmp_path / "empty").files > 0
-
-
-def test_a_long_run_says_that_it_goes_on(course, monkeypatch, capfd):
-    """And has one thread for the libraries whose threads would fight."""
-    monkeypatch.setattr(showing, "_PATIENCE", 0.2)
-    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
-    own = course / "exercises" / FOLDER / FILE
-    own.write_text(
-        f"{SOLUTION}\nimport os, time\ntime.sleep(1)\nprint(os.environ['OMP_NUM_THREADS'])\n"
-    )
-    show(3, None, course)
-    out, errors = capfd.readouterr()
-    assert "(tiny.py runs, " in errors and out.split()[-1] == "1"
 
 
 @pytest.mark.slow
@@ -511,53 +403,6 @@ def test_answers_after_full_marks(course, tmp_path, monkeypatch):
     assert call("show", "3", "--answers")[1] == out
     packed.write_text("nothing")
     refused("damaged")
-
-
-def test_notebook(course, monkeypatch):
-    """start --notebook runs JupyterLab with the file open; without it says what installs it."""
-    called = []
-
-    def run(command, env):
-        called.append((command, env))
-        return subprocess.CompletedProcess(command, 0)
-
-    monkeypatch.setattr(starting.subprocess, "run", run)
-    file = course / "exercises" / FOLDER / FILE
-    monkeypatch.setattr(starting, "find_spec", lambda name: name != "jupytext")
-    with pytest.raises(BotschoolError, match=r"pip install botschool\[notebook\]"):
-        starting.open_notebook(3, file, course)
-    assert not called
-    monkeypatch.setattr(starting, "find_spec", lambda name: True)
-    starting.open_notebook(3, file, course)
-    ((command, env),) = called
-    assert command[-1].endswith(f"=/lab/workspaces/tiny/tree/exercises/{FOLDER}/{FILE}")
-    assert env["JUPYTER_CONFIG_PATH"].startswith(str(course.resolve() / ".botschool"))
-
-
-def test_start_installs_what_is_missing_in_the_courses_own_environment(course, monkeypatch):
-    """With its set-up, once for each extra; in another environment, or again, nothing happens."""
-    ran = []
-    monkeypatch.setattr(starting, "missing_packages", lambda extras: [*extras])
-    monkeypatch.setattr(
-        starting.subprocess, "run",
-        lambda command, cwd: ran.append(command[2:]) or subprocess.CompletedProcess(command, 0),
-    )  # fmt: skip
-    (course / "tools").mkdir()
-    (course / "tools" / "setup.sh").write_text("")
-    starting.install(("rl",), course)
-    assert not ran
-    monkeypatch.setattr(starting.sys, "prefix", str(course / ".venv"))
-    (course / ".venv").mkdir()
-    starting.install(("rl", "notebook"), course)
-    assert ran == [["extra", "rl"], ["extra", "notebook"]]
-    (course / ".venv" / ".extra-rl").touch()
-    starting.install(("rl",), course)
-    assert len(ran) == 2
-    monkeypatch.setattr(
-        starting.subprocess, "run", lambda command, cwd: subprocess.CompletedProcess(command, 2)
-    )
-    with pytest.raises(BotschoolError, match="'box2d' are not installed"):
-        starting.install(("box2d",), course)
 
 
 @pytest.mark.slow
@@ -731,35 +576,6 @@ def test_grade_all_makes_a_secret_and_keeps_it(course, tmp_path, monkeypatch):
     assert str(secret) not in out
     secret.unlink()
     assert grade_class()[1] == own and not secret.exists()
-
-
-def test_a_secret_that_cannot_be_kept(tmp_path, monkeypatch):
-    monkeypatch.delenv("BOTSCHOOL_GRADING_SEED", raising=False)
-    made = [grading_secret(tmp_path / "nowhere") for _ in range(2)]
-    assert made[0][0] != made[1][0] and "cannot keep a secret" in made[0][1]
-
-
-def test_page_names():
-    folders = [
-        "Ada",
-        "ada",
-        "a/b",
-        "..",
-        "...",
-        "",
-        "con",
-        "Jo\u00e3o",
-        "x" * 300,
-        "\udcff",
-        "a\nb",
-        "nul.txt",
-    ]
-    names = page_names(folders)
-    assert names[0] == "Ada.html" and names[7] == "Jo\u00e3o.html"
-    assert len({name.casefold() for name in names}) == len(folders)
-    for name in names:
-        assert "/" not in name and "\n" not in name and not name.startswith(".") and len(name) < 110
-        name.encode()
 
 
 # --- a system that cannot confine

@@ -14,20 +14,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from botschool.errors import BotschoolError
-from botschool.grading import commands
 from botschool.grading.classes import batch
 from botschool.grading.classes.commands import grade_all_command
-from botschool.grading.declare import exercise as extras
-from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import load_exercise
 from botschool.grading.declare.state import secret_for_others
 from botschool.grading.judge.submission import grade
 from botschool.grading.notebook import grade_cell
-from botschool.grading.run import temporary
 from botschool.grading.run.confined import content_digest
-from botschool.grading.run.student import Student
-from botschool.sandbox import SandboxError, Scratch, paths
+from botschool.sandbox import SandboxError, paths
 from botschool.sandbox.inside import read_inside
 from running import call, environment_of_command, one_sentence, start
 from tiny_course import FILE, FOLDER, SOLUTION, make_course, submit
@@ -133,25 +127,6 @@ def begin():
 """
 
 
-def test_a_folder_that_is_a_link_now_and_then_shows_nothing(tmp_path, precious):
-    """The child exchanges a folder of its own for a link while the grader reads a file there."""
-    student = Student(submit(tmp_path, FLIPPING.format(outside=str(precious.parent))), 20)
-    try:
-        student.call("begin")
-        read, tried = set(), 0
-        while tried < 3000 or (not read and tried < 100_000):
-            tried += 1
-            if tried % 100 == 0:
-                time.sleep(0.002)  # on a busy machine the child must have its turn
-            try:
-                read.add(student.scratch("own/precious.py").read_text().strip())
-            except Wrong as error:
-                assert "should have written" in str(error)
-        assert read == {"own"}
-    finally:
-        student.close()
-
-
 @AS_ROOT
 def test_a_hard_link_to_a_file_of_another_user_is_left_out(course, tmp_path, precious):
     file = submit(tmp_path / "one", f"{raising('/taken.py')}\nprint(os.listdir())")
@@ -163,14 +138,6 @@ def test_a_hard_link_to_a_file_of_another_user_is_left_out(course, tmp_path, pre
     file.unlink()
     os.link(precious, file)
     assert "another user's file" in str(grade(load_exercise(3, course), file))
-
-
-def test_a_hard_link_of_ones_own_is_a_file(tmp_path):
-    file = submit(tmp_path, SOLUTION)
-    os.link(file, file.parent / "twice.py")
-    scratch = Scratch(file)
-    assert sorted(path.name for path in scratch.folder.iterdir()) == ["tiny.py", "twice.py"]
-    scratch.remove()
 
 
 # --- answers that were recorded
@@ -367,19 +334,6 @@ def test_a_grader_runs_only_from_a_course_that_the_user_trusts(handed_in, tmp_pa
     assert not (tmp_path / "was_here").exists()
 
 
-def test_trust_is_given_once(handed_in, tmp_path):
-    assert call("trust", tmp_path)[0] == 2
-    assert call("trust", handed_in)[0] == 0
-    assert call("grade", "3", "--submission", "solutions", cwd=handed_in)[0] == 0
-    assert (tmp_path / "was_here").exists()
-    assert call("release", tmp_path / "copy", cwd=handed_in)[0] == 0
-    assert call("grade", "3", cwd=tmp_path / "copy")[0] == 1  # made here: known
-    (tmp_path / "copy").rename(tmp_path / "moved")
-    assert call("grade", "3", cwd=tmp_path / "moved")[0] == 2
-    (tmp_path / "config" / "botschool" / "trusted.json").write_text("damaged")
-    assert call("grade", "3", cwd=handed_in)[0] == 2
-
-
 def test_no_program_of_a_repositorys_settings_runs(handed_in, tmp_path):
     """git runs what core.fsmonitor names, also for `git ls-files`, with which release begins."""
     shutil.rmtree(handed_in / ".git")
@@ -432,46 +386,10 @@ def test_the_next_grading_sweeps_what_a_killed_one_has_left(course, tmp_path, co
     assert left() == [] and others.is_dir()
 
 
-@AS_ROOT
-def test_folders_of_others_are_not_swept(tmp_path, monkeypatch):
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    (tmp_path / f"{temporary.PREFIX}own").mkdir()
-    (tmp_path / f"{temporary.PREFIX}other").mkdir()
-    os.chown(tmp_path / f"{temporary.PREFIX}other", 1234, 1234)
-    (tmp_path / "elsewhere").mkdir()
-    (tmp_path / f"{temporary.PREFIX}link").symlink_to(tmp_path / "elsewhere")
-    temporary.sweep()
-    assert sorted(path.name.removeprefix(temporary.PREFIX) for path in tmp_path.iterdir()) == [
-        "elsewhere", "link", "other",
-    ]  # fmt: skip
-
-
 # --- faults of the instructor's machine
 def rows(output):
     with open(output / "grades.csv", encoding="utf-8-sig", newline="") as file:
         return list(csv.DictReader(file))
-
-
-def test_a_missing_package_is_said_before_a_class_is_graded(course, tmp_path, monkeypatch):
-    grader = next(course.glob("exercises/*/test_*.py"))
-    text = grader.read_text().replace('file="tiny.py"', 'file="tiny.py", extras=("rl",)')
-    grader.write_text(text)
-    monkeypatch.setattr(extras, "_installed", lambda name: name != "torch")
-    submit(tmp_path / "class" / "anna", SOLUTION)
-    for command in (
-        lambda: grade_all_command(tmp_path / "class", tmp_path / "o", "3", 1, False),
-        lambda: commands.grade_command("3", str(tmp_path / "class" / "anna"), False, False),
-    ):
-        with pytest.raises(
-            BotschoolError, match=r"needs torch: .*botschool start 3.*botschool\[rl\]"
-        ):
-            command()
-    assert not (tmp_path / "o").exists()
-    monkeypatch.chdir(tmp_path / "class" / "anna" / FOLDER)
-    cells = [{"cell_type": "code", "source": SOLUTION}]
-    Path("tiny.ipynb").write_text(json.dumps({"cells": cells}))
-    with pytest.raises(BotschoolError, match="needs torch"):
-        grade_cell("3.1")
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,6 @@ import pytest
 from botschool.grading.declare.exercise import load_exercise
 from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import grade
-from botschool.grading.report.screen import Screen, Watched, watch
 from botschool.grading.report.showing import show
 from exports import notebook
 from running import call, environment_of_command
@@ -129,16 +128,6 @@ def test_functions_that_replace_those_of_python_stay(course, tmp_path, line):
     assert result.points == 100 and not result.banner
 
 
-@pytest.mark.parametrize("line", ["sum = np.sum", "id = 3", "float = lambda x: x", "input = [1]"])
-def test_other_values_stay(course, tmp_path, line):
-    name = line.partition(" ")[0]
-    text = after_imports(line).replace(
-        "np.asarray(numbers)\n", f"np.asarray(numbers, {name} and None)\n"
-    )
-    result = graded(course, tmp_path, text)
-    assert result.points == 100 and not result.banner
-
-
 @pytest.mark.parametrize("kind, word", [("markdown", "Markdown"), ("raw", "raw")])
 def test_a_function_in_a_cell_without_code_is_found(course, tmp_path, kind, word):
     document = json.loads(notebook(SOLUTION))
@@ -166,15 +155,6 @@ def test_an_import_or_a_constant_in_a_cell_without_code_is_found(
     file.write_text(json.dumps(document).replace(": np.ndarray", ""))
     message = grade(load_exercise(3, course), file).tasks[0].message
     assert f"{lost} cannot be read: it stands in a {word} cell" in message
-
-
-@pytest.mark.parametrize("kind, word", [("markdown", "Markdown"), ("raw", "raw")])
-def test_a_cell_without_code_is_found_in_a_script_too(course, tmp_path, kind, word):
-    head, code = SOLUTION.split("def double", 1)
-    commented = f"def double{code}".split("def total")[0].replace("\n", "\n# ")
-    text = f"{head}\n# %% [{kind}]\n# {commented}\n\n# %%\ndef total{code.split('def total')[1]}"
-    message = graded(course, tmp_path, text).tasks[0].message
-    assert f"double cannot be read: it stands in a {word} cell: make it a code cell" in message
 
 
 @pytest.mark.parametrize(
@@ -213,13 +193,6 @@ def test_a_film_at_the_top_needs_no_installation(course, tmp_path, line):
     assert NO_FILMS in banner and "install" not in banner
 
 
-def test_line_ends_of_old_macs(course, tmp_path):
-    file = submit(tmp_path / "handed", SOLUTION)
-    file.write_bytes(SOLUTION.replace("\n", "\r").encode())
-    code, out, _ = call("grade", "3", "--submission", str(file.parent), cwd=course)
-    assert code == 0 and "100 of 100" in out and "defines no function" not in out
-
-
 @pytest.mark.parametrize("columns", ["0", "00", ""])
 @pytest.mark.parametrize("command", [("grade", "3"), ("hint", "3.1"), ("progress",), ("--help",)])
 def test_a_terminal_of_no_width_shows_all(course, columns, command):
@@ -250,41 +223,6 @@ def test_a_home_that_cannot_be_written_names_the_way_out(tmp_path):
     named = surroundings | {"BOTSCHOOL_COURSE": str(place)}
     code, out, _ = call("grade", "3.2", cwd=place, env=named)
     assert code == 1 and "0 of 10 points" in out
-
-
-def test_watch_waits_for_a_file_that_is_away(course, monkeypatch):
-    file = course / "exercises" / FOLDER / FILE
-    away = file.with_name("away")
-    exercise = load_exercise(3, course)
-    waited, graded_times = [], []
-
-    class Silent(Screen):
-        def start(self, *arguments):
-            pass
-
-        def task(self, result):
-            graded_times.append(len(waited))
-
-        def end(self, result, whole):
-            pass
-
-    def wait(seconds):
-        waited.append(seconds)
-        if len(waited) == 1:
-            file.rename(away)
-        elif len(waited) == 4:
-            away.rename(file)
-        elif len(waited) > 5:
-            raise KeyboardInterrupt
-
-    def found():
-        from botschool.grading.declare.exercise import submission_file
-
-        return Watched(submission_file(3, None, course), file, [], file.parent)
-
-    with pytest.raises(KeyboardInterrupt):
-        watch(exercise, found, exercise.tasks[:1], Silent(), wait)
-    assert len(graded_times) == 2 and graded_times[1] >= 4
 
 
 @pytest.mark.parametrize("name", ["random.py", "types.py", "copy.py"])

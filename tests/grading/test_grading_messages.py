@@ -313,16 +313,6 @@ def test_a_call_can_be_pasted():
     assert pasted("f", (np.zeros(1000),), {}) == "" and pasted("f", ("x" * 500,), {}) == ""
 
 
-def test_equal_neighbours_of_many_are_pasted_in_short():
-    few = np.zeros(64)
-    few[[3, 4, 40]] = 0.5, -0.5, 2
-    text = pasted("f", (few,), {})
-    assert text == "f(np.array([*3 * [0.0], 0.5, -0.5, *35 * [0.0], 2.0, *23 * [0.0]]))"
-    assert np.array_equal(eval(text, {"np": np, "f": np.array}), few)
-    assert pasted("f", (np.zeros(9),), {}) == f"f(np.array({[0.0] * 9}))"
-    assert pasted("f", (np.arange(64.0),), {}) == ""
-
-
 def test_the_cause_stands_above_the_call(graded):
     message = graded("def double(x): return -2 * x\n").tasks[0].message
     cause, call = message.splitlines()
