@@ -15,14 +15,9 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-from bodies import locomotors
-from bodies import two_workers as two_workers_on_bodies
-from bodybrain import bodybrain, chains
 from comparison import comparison, notice
-from interface import interface
 from processes import Neighbours, help_seconds, peak_memory
 from report import Table, machine, rate, verdict
-from roofline import roofline
 from runners import runners, two_workers_on_runners
 from speed import (
     CASES,
@@ -36,7 +31,6 @@ from speed import (
     run_times,
     undisturbed,
 )
-from together import together_or_apart
 
 from botschool import _core, config
 from botschool.analysis.populations import Population, Populations
@@ -269,17 +263,10 @@ PARTS = {
     "others": (comparison, (0.1, 2), (0.5, 3)),
     "gymnasium": (beside_gymnasium, (0.1, 2), (0.3, 5)),
     "instructions": (instruction_sets, (0.05, 2), (0.15, 5)),
-    "roofline": (roofline, (0.05, 2), (0.3, 5)),
     "workers": (two_workers_evaluating, (20,), (200,)),
-    "interface": (interface, (50,), (300,)),
     "runs": (two_workers_running, (0.15, 2), (0.5, 7)),
-    "together": (together_or_apart, (0.15, 2), (0.5, 7)),
     "meetings": (meetings, (0.05, 2), (0.5, 5)),
     "coevolution": (coevolution, (20, 0), (80, 2)),
-    "bodies": (locomotors, (5,), (50,)),
-    "bodyworkers": (two_workers_on_bodies, (1,), (4,)),
-    "bodybrain": (bodybrain, (5,), (30,)),
-    "chains": (chains, (0.2, 2), (1.0, 5)),
     "runners": (runners, (0.2, 2), (1.0, 5)),
     "runnerworkers": (two_workers_on_runners, (3,), (20,)),
     "memory": (memory_and_start, (2, 3), (8, 10)),

@@ -9,10 +9,7 @@ import pytest
 
 from running import TESTS
 
-PAGES = (
-    "agents", "algorithms_page", "coevolution_page", "evolution_and_ppo_page", "optimisers",
-    "results_page", "spatial_page", "tuned",
-)  # fmt: skip
+PAGES = ("agents", "optimisers", "results_page", "spatial_page")
 
 
 @pytest.mark.usefixtures("studies")
@@ -47,37 +44,6 @@ def test_a_run_that_is_kept_is_not_done_again(tmp_path):
             results.do({"seed": seed, "params": {}}, run)
     assert len(done) == 2
     assert [run["new"] for run in results.of(params={})] == [2, 1]
-
-
-@pytest.mark.usefixtures("studies")
-def test_runs_of_the_comparisons_are_all_there():
-    import algorithms
-    import evolution_and_ppo as study
-
-    _, done, _ = algorithms.load()
-    for problem in algorithms.PROBLEMS:
-        for method in algorithms.METHODS:
-            runs = algorithms.runs_of(done, problem, method.name)
-            assert [run["seed"] for run in runs] == list(algorithms.SEEDS)
-    results = study.Results(study.FILE)
-    for problem in study.PROBLEMS:
-        for method in study.METHODS:
-            for unit in ("steps", "seconds"):
-                runs = study.best(results, problem, method, unit)
-                assert [run["seed"] for run in runs] == list(study.SEEDS)
-
-
-@pytest.mark.slow
-@pytest.mark.usefixtures("studies")
-def test_an_interval_of_differences():
-    import tuned
-
-    low, high = tuned.interval(np.full(20, 5.0))
-    assert low == high == 5.0
-    values = np.random.default_rng(3).normal(1.0, 2.0, 400)
-    low, high = tuned.interval(values)
-    assert abs((high - low) / 2 - 1.96 * values.std() / 20) < 0.02
-    assert low < values.mean() < high
 
 
 @pytest.mark.usefixtures("studies")
