@@ -171,6 +171,11 @@ def compiled(tmp_path_factory):
     before = "#define BOTSCHOOL_HYPERPARAMETERS(X) \\\n"
     assert before in keys.read_text()
     keys.write_text(keys.read_text().replace(before, before + line))
+    policy = scratch.lib / "botschool" / "policies" / "hyperparameters.py"
+    before = '    nhiddens: int = _of_network("nhiddens")\n'
+    assert before in policy.read_text()
+    line = '    patience: float = _of_network("patience")\n'
+    policy.write_text(policy.read_text().replace(before, before + line))
     scratch.compile({"slider", "discrim"})
     (scratch.work / "slider.ini").write_text(
         f"[EXP]\nenvironment = Slider-v3\n[POLICY]\n{POLICY}{ALGO}"

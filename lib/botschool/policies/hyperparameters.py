@@ -5,12 +5,10 @@ checking and listing experiment files (botschool.config) use these declarations.
 declares its own hyperparameters in its file (botschool.evolution.algorithms).
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field, fields, make_dataclass, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
 
 from botschool import _core
 from botschool.inifile import shown
@@ -47,39 +45,33 @@ def numbers(text: str) -> tuple[int, ...]:
     return tuple(map(int, listed))
 
 
-def _of_networks() -> list[tuple[str, type, Any]]:
-    """Return the name, type and declaration of each hyperparameter of a policy network."""
-    declared = []
-    for name, default, low, high, explanation, choices in _core.hyperparameters():
-        limits: dict[str, Any] = {"low": low, "high": high}
-        if choices:
-            pairs = (choice.split(": ", 1) for choice in choices.split(" | "))
-            limits = {"choices": {int(value): meaning for value, meaning in pairs}}
-        declared.append((name, type(default), hyper(default, explanation, **limits)))
-    return declared
+DECLARED: dict[str, tuple] = {row[0]: row[1:] for row in _core.hyperparameters()}
+"""Name -> default, limits, explanation and choices, as lib/evonet/hyperparameters.hpp has them."""
+NETWORK = tuple(DECLARED)
+"""Names of the hyperparameters of every network."""
+CONVOLUTIONS = ("filters", "kernels", "strides")
+"""Names of the hyperparameters of convolutional layers, a number for each layer."""
 
 
-def _of_convolutions() -> list[tuple[str, type, Any]]:
-    """Return the same for hyperparameters with a number for each convolutional layer."""
+def _of_network(name: str) -> Any:
+    """Return the declaration of a hyperparameter of every network."""
+    default, low, high, explanation, choices = DECLARED[name]
+    if not choices:
+        return hyper(default, explanation, low=low, high=high)
+    pairs = (choice.split(": ", 1) for choice in choices.split(" | "))
+    return hyper(default, explanation, choices={int(value): text for value, text in pairs})
+
+
+def _of_layers(default: str, explanation: str) -> Any:
+    """Return the declaration of a hyperparameter with a number for each convolutional layer."""
     form = "whole numbers from 1 to 1000 separated by commas, one for each convolutional layer"
-    return [
-        (name, str, hyper(default, f"{help} (architecture = 4)", check=numbers, form=form))
-        for name, default, help in (
-            ("filters", "16, 32", "filters of the convolutional layers"),
-            ("kernels", "8, 4", "sides of their square kernels, in pixels"),
-            ("strides", "4, 2", "pixels from one place of a kernel to the next"),
-        )
-    ]
-
-
-NETWORK: tuple[str, ...] = tuple(name for name, _, _ in _of_networks())
-"""Names of the hyperparameters of every network; lib/evonet/hyperparameters.hpp declares them."""
-CONVOLUTIONS = tuple(name for name, _, _ in _of_convolutions())
-"""Names of the hyperparameters of convolutional layers."""
+    return hyper(default, f"{explanation} (architecture = 4)", check=numbers, form=form)
 
 
 @dataclass
-class _Evaluation:
+class PolicyConfig:
+    """Section [POLICY]: the network and how its robot is evaluated."""
+
     nrobots: int = hyper(1, "robots in the environment, one network each", low=1, high=1000)
     heterogeneous: int = hyper(0, "each robot has parameters of its own", choices=NO_YES)
     episodes: int = hyper(1, "episodes a candidate's fitness averages", low=1, high=1000000)
@@ -93,6 +85,23 @@ class _Evaluation:
     pmaxsteps: int = hyper(
         0, "the same for post-evaluations (0 = as maxsteps)", low=0, high=100000000
     )
+    nhiddens: int = _of_network("nhiddens")
+    nhiddens2: int = _of_network("nhiddens2")
+    nlayers: int = _of_network("nlayers")
+    bias: int = _of_network("bias")
+    out_type: int = _of_network("out_type")
+    nbins: int = _of_network("nbins")
+    architecture: int = _of_network("architecture")
+    afunction: int = _of_network("afunction")
+    winit: int = _of_network("winit")
+    action_noise: int = _of_network("action_noise")
+    action_noise_range: float = _of_network("action_noise_range")
+    normalize: int = _of_network("normalize")
+    clip: int = _of_network("clip")
+    wrange: float = _of_network("wrange")
+    filters: str = _of_layers("16, 32", "filters of the convolutional layers")
+    kernels: str = _of_layers("8, 4", "sides of their square kernels, in pixels")
+    strides: str = _of_layers("4, 2", "pixels from one place of a kernel to the next")
 
     @property
     def post_steps(self) -> int:
@@ -100,22 +109,8 @@ class _Evaluation:
         return self.pmaxsteps or self.maxsteps
 
 
-if TYPE_CHECKING:
-
-    class PolicyConfig(_Evaluation):
-        """Hides the fields that come from C++ from type checkers."""
-
-        def __init__(self, **values: Any) -> None: ...
-        def __getattr__(self, name: str) -> Any: ...
-
-else:
-    PolicyConfig = make_dataclass(
-        "PolicyConfig",
-        [*_of_networks(), *_of_convolutions()],
-        bases=(_Evaluation,),
-        namespace={"__module__": __name__},
-    )
-    PolicyConfig.__doc__ = """Section [POLICY]: the network and how its robot is evaluated."""
+if lacking := set(NETWORK) - {f.name for f in fields(PolicyConfig)}:
+    raise ImportError(f"PolicyConfig lacks {', '.join(lacking)}: add a line for each.")
 
 
 def conflicts(p: PolicyConfig) -> Iterator[tuple[tuple[str, ...], str]]:
@@ -163,10 +158,9 @@ def one_layer(p: PolicyConfig) -> tuple[PolicyConfig, list[str]]:
 
 
 def _convolutional(p: PolicyConfig) -> Iterator[tuple[tuple[str, ...], str]]:
-    lists = ("filters", "kernels", "strides")
     if p.architecture != CONVOLUTIONAL:
         for f in fields(p):
-            if f.name in lists and getattr(p, f.name) != f.default:
+            if f.name in CONVOLUTIONS and getattr(p, f.name) != f.default:
                 yield (
                     (f.name,),
                     f"{f.name} = {getattr(p, f.name)} needs architecture = {CONVOLUTIONAL} "
@@ -174,10 +168,10 @@ def _convolutional(p: PolicyConfig) -> Iterator[tuple[tuple[str, ...], str]]:
                     "the line",
                 )
         return
-    if len({len(numbers(getattr(p, name))) for name in lists}) > 1:
-        said = [f"{name} = {getattr(p, name)}" for name in lists]
+    if len({len(numbers(getattr(p, name))) for name in CONVOLUTIONS}) > 1:
+        said = [f"{name} = {getattr(p, name)}" for name in CONVOLUTIONS]
         yield (
-            lists,
+            CONVOLUTIONS,
             f"{said[0]}; {said[1]}; {said[2]}: give as many numbers in each, one for every "
             "convolutional layer",
         )
