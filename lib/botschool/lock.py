@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
-from botschool.errors import BotschoolError
+from botschool.errors import FOLDER, BotschoolError
 from botschool.output import cannot_write
 
 try:
@@ -77,7 +77,9 @@ def _locked_file(path: Path, what: str, first: int, count: int) -> int:
             os.close(file)
             raise BotschoolError(
                 f"Another command is writing {what} in {path.parent}: wait until it ends or stop "
-                "it, or choose another folder (-o)."
+                "it, or choose another folder",
+                FOLDER,
+                ".",
             ) from None
         with suppress(OSError):
             if os.path.samestat(os.fstat(file), path.stat()):

@@ -1,13 +1,16 @@
 """`import botschool`: what programs get is what the commands give, bit for bit."""
 
+import ast
 import copy
 import os
 import pickle
+import re
 import shutil
 import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -397,3 +400,28 @@ def test_a_training_is_that_of_the_command(tmp_path):
     )
     loaded = botschool.load(mine)
     assert repr(loaded) == repr(agent) and np.array_equal(loaded.returns, agent.returns)
+
+
+FLAG = re.compile(r"--[a-z]|\(-[a-z]\)|(^|[ `])-[a-z] ")
+ROOMS = ("lock.py", "config.py", "wrappers.py", "output.py", "problems", "policies", "evolution")
+
+
+def test_a_remedy_of_the_command_is_a_part_of_its_own(tmp_path):
+    """Programs get another one; replicate.py is of the command only."""
+    library = Path(botschool.__file__).parent
+    files = [library / room for room in ROOMS if room.endswith(".py")]
+    files += [path for room in ROOMS for path in (library / room).rglob("*.py")]
+    for path in [path for path in files if path.name != "replicate.py"]:
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if isinstance(node, ast.Call) and ast.unparse(node.func) in (
+                "BotschoolError",
+                "self._wrong",
+            ):
+                texts = [a for a in node.args if isinstance(a, (ast.Constant, ast.JoinedStr))]
+                found = [text for text in map(ast.unparse, texts) if FLAG.search(text)]
+                assert not found, f"{path.name}: write {found} with errors.Option"
+    botschool.evolve(POLE, folder=tmp_path)
+    with pytest.raises(botschool.BotschoolError) as raised:
+        botschool.evolve(POLE, folder=tmp_path)
+    assert "resume=True" in str(raised.value) and "force=True" in str(raised.value)
+    assert not FLAG.search(str(raised.value))

@@ -11,7 +11,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from botschool.config import Experiment, defaults, free, to_dict
-from botschool.errors import BotschoolError
+from botschool.errors import ANEW, RESUME, BotschoolError, Option
 from botschool.evolution.record import RunFiles
 from botschool.output import save_npz
 from botschool.problems import Problem
@@ -56,17 +56,18 @@ def load(path: Path, experiment: Experiment, seed: int) -> dict[str, np.ndarray]
     except Exception as error:  # a damaged file can fail in any way
         raise BotschoolError(
             f"{path} is not a complete checkpoint of botschool ({_reason(error)}): restore it "
-            "from a copy, or use --force to start anew."
+            "from a copy",
+            *ANEW,
         ) from None
     if version != FORMAT:
         raise BotschoolError(
-            f"{path} was written by another version of botschool: use that one, or --force "
-            "to start anew."
+            f"{path} was written by another version of botschool: use that one", *ANEW
         )
     if owner != seed:
         raise BotschoolError(
-            f"{path} is a checkpoint of seed {owner}, not of {seed}: give "
-            "that seed with -s, or use --force to start anew."
+            f"{path} is a checkpoint of seed {owner}, not of {seed}: give that seed",
+            Option(" with -s", ""),
+            *ANEW,
         )
     now, may_change = to_dict(experiment), free(experiment)
     unsaid = defaults(experiment)  # keys that older versions did not have
@@ -76,7 +77,8 @@ def load(path: Path, experiment: Experiment, seed: int) -> dict[str, np.ndarray]
             if (section, key) not in may_change and before != value:
                 raise BotschoolError(
                     f"{path} belongs to an experiment with {key} = {before}, but {key} is now "
-                    f"{value}: change it back to resume, or use --force to start anew."
+                    f"{value}: change it back to resume",
+                    *ANEW,
                 )
     return state
 
@@ -136,17 +138,20 @@ def resume(path: Path, run: Resumable) -> None:
     except (KeyError, ValueError, IndexError, TypeError):
         raise BotschoolError(
             f"{path} does not fit this run (the environment has changed, or parts are "
-            "missing): restore it from a copy, or use --force to start anew."
+            "missing): restore it from a copy",
+            *ANEW,
         ) from None
     if run.policy.scales and not header(path).get("scaled"):
         raise BotschoolError(
             f"{path} was written by a version of botschool that did not scale outputs to the "
-            "limits of the actions: use that version, or --force to start anew."
+            "limits of the actions: use that version",
+            *ANEW,
         )
     if run.problem.native and not run.reproduces():  # others may be slow, or never repeat
         raise BotschoolError(
             f"{path} was written by a version of botschool that evaluates robots differently (its "
-            "best one gets another fitness here): use that version, or --force to start anew."
+            "best one gets another fitness here): use that version",
+            *ANEW,
         )
 
 
@@ -161,7 +166,11 @@ def rescued(run: Any, unsaved: BotschoolError) -> BotschoolError:
     except (OSError, BotschoolError):
         return unsaved
     return BotschoolError(
-        f"{unsaved} The run is in {files.folder}: go on with -o {files.folder} --resume."
+        f"{unsaved} The run is in {files.folder}: go on with ",
+        Option("-o ", "folder="),
+        f"{files.folder} ",
+        RESUME,
+        ".",
     )
 
 

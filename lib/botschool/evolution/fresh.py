@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from botschool.errors import BotschoolError
+from botschool.errors import BotschoolError, Option
 from botschool.output import save_bytes
 from botschool.terminal import readable
 
@@ -58,7 +58,7 @@ def read(path: Path) -> np.ndarray | None:
         returns = np.zeros(0)
     if not (len(returns) and np.isfinite(returns).all()):
         raise BotschoolError(
-            f"{path} does not hold the returns of episodes, one a line: measure them again by "
-            "the run's command with --resume."
+            f"{path} does not hold the returns of episodes, one a line: measure them again by ",
+            Option("the run's command with --resume.", "evolve(..., resume=True)."),
         )
     return returns

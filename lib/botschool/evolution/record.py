@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from botschool.errors import BotschoolError
+from botschool.errors import ANEW, FOLDER, FORCE, RESUME, SEED, BotschoolError
 from botschool.evolution.algorithm import Stateful
 from botschool.lock import locked
 from botschool.output import cannot_write, remove_leftovers, save_bytes, save_npy
@@ -124,12 +124,23 @@ def _claim(folder: Path, seeds: list[int], resume: bool, force: bool) -> None:
         if resume:
             raise BotschoolError(
                 f"{existing[0]} exists but {files.checkpoint} does not, so the run cannot be "
-                "resumed: use another seed (-s) or folder (-o), or --force to start anew."
+                "resumed: use another seed",
+                SEED,
+                " or folder",
+                FOLDER,
+                *ANEW,
             )
         if not force:
             raise BotschoolError(
-                f"{existing[0]} exists: use --resume to continue that run, another seed (-s) or "
-                "folder (-o) to keep it, or --force to overwrite it."
+                f"{existing[0]} exists: use ",
+                RESUME,
+                " to continue that run, another seed",
+                SEED,
+                " or folder",
+                FOLDER,
+                " to keep it, or ",
+                FORCE,
+                " to overwrite it.",
             )
     for files in [RunFiles(folder, seed) for seed in seeds]:
         for path in files.all():

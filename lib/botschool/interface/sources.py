@@ -39,20 +39,6 @@ SECTIONS = {
 }
 """The section of each hyperparameter."""
 
-WORDS = (
-    ("add --resume to the same command", "call it again with resume=True"),
-    ("add --resume", "add resume=True"),
-    ("--resume", "resume=True"),
-    ("--force", "force=True"),
-    (" (-s)", ""),
-    (" (-o)", ""),
-    (" with -s", ""),
-    ("-o ", "folder="),
-    ("run with -w 1", "use workers=1"),
-    (" (-w)", ""),
-)
-"""The command's words for remedies, and those of Python."""
-
 
 @contextmanager
 def in_python_words() -> Iterator[None]:
@@ -60,10 +46,7 @@ def in_python_words() -> Iterator[None]:
     try:
         yield
     except BotschoolError as error:
-        sentence = str(error)
-        for command, python in WORDS:
-            sentence = sentence.replace(command, python)
-        raise BotschoolError(sentence) from None
+        raise BotschoolError(error.in_python) from None
 
 
 def experiment_of(

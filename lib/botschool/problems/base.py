@@ -173,6 +173,12 @@ class Problem(ABC):
         """End the worker processes that evaluation has started."""
 
 
+def vectors_of(normalisation: np.ndarray | None, candidate: Any) -> np.ndarray | None:
+    """Return the normalisation vectors of a candidate, or of several, as `evaluate` takes them."""
+    own = normalisation is not None and normalisation.ndim == 2
+    return normalisation[candidate] if own else normalisation
+
+
 @cache
 def say(sentence: str) -> None:
     """Print a note on stderr, once in a program."""

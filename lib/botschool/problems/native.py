@@ -13,7 +13,7 @@ from botschool.arenas.plan import PROBLEM, Plan
 from botschool.arenas.robots import RobotModel, cast
 from botschool.errors import BotschoolError
 from botschool.policies.policy import Interface, Policy
-from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
+from botschool.problems.base import Episodes, Interrupted, Outcome, Problem, vectors_of
 from botschool.problems.rewards import aim, unmeasured
 from botschool.problems.space import options_of
 from botschool.problems.transition import Transition
@@ -184,8 +184,10 @@ class NativeProblem(Problem):
         if not (math.isfinite(fitness.sum()) or np.isfinite(fitness).all()):
             first = int(np.argmin(np.isfinite(fitness)))
             seed, episode = int(episodes.seed[first]), int(episodes.episode[first])
-            rows = genotypes[np.atleast_1d(episodes.candidate[..., first])]
-            played = (self, policy, rows, normalisation, seed, episode, limit)
+            candidate = episodes.candidate[..., first]
+            vectors = vectors_of(normalisation, candidate)
+            rows = genotypes[np.atleast_1d(candidate)]
+            played = (self, policy, rows, vectors, seed, episode, limit)
             told = unmeasured(*played) if self.reward else None
             raise told or self.broken(f"a return of {fitness[first]}", seed, episode)
         if self.alive:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from botschool.errors import BotschoolError
+from botschool.errors import BotschoolError, Option
 from botschool.inifile import shown
 from botschool.problems.base import say
 
@@ -29,8 +29,9 @@ def picture(given: Any, name: str) -> np.ndarray:
         what = f"an array of shape {np.shape(given)}" if np.ndim(given) else shown(given)
         raise BotschoolError(
             f"{name} draws no pictures: its render gave {what} ({type(given).__name__}), but a "
-            "picture is an array (height, width, 3) of uint8. Leave out films, and add --render "
-            "none."
+            "picture is an array (height, width, 3) of uint8",
+            Option(": leave out films, and add --render none", ""),
+            ".",
         )
     if frame.dtype != np.uint8:
         frame = np.nan_to_num(frame.astype(np.float64))

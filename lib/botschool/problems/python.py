@@ -13,10 +13,17 @@ from typing import Any
 import numpy as np
 
 from botschool import wrappers
-from botschool.errors import BotschoolError, said
+from botschool.errors import BotschoolError, Option, said
 from botschool.inifile import shown
 from botschool.policies.policy import Policy
-from botschool.problems.base import Episodes, Interrupted, Outcome, Problem, say_unrepeatable
+from botschool.problems.base import (
+    Episodes,
+    Interrupted,
+    Outcome,
+    Problem,
+    say_unrepeatable,
+    vectors_of,
+)
 from botschool.problems.pictures import picture
 from botschool.problems.transition import Transition
 from botschool.seeds import libraries_kept, seed_libraries
@@ -90,8 +97,7 @@ class PythonProblem(Problem):
             if stopping():
                 raise Interrupted
             row = episodes.candidate[..., i]
-            own = normalisation is not None and normalisation.ndim == 2
-            policy.load(genotypes[row], normalisation[row] if own else normalisation)
+            policy.load(genotypes[row], vectors_of(normalisation, row))
             wanted = episodes.collect is not None and episodes.collect[i]
             moments = outcome.moments[i] if wanted else None
             seed, episode = int(episodes.seed[i]), int(episodes.episode[i])
@@ -285,8 +291,9 @@ class PythonProblem(Problem):
 
     def _unseen(self) -> BotschoolError:
         return BotschoolError(
-            f"{self.name} draws no pictures (render_mode rgb_array): leave out --video and "
-            "--replay, and add --render none."
+            f"{self.name} draws no pictures (render_mode rgb_array)",
+            Option(": leave out --video and --replay, and add --render none", ""),
+            ".",
         )
 
     def close(self) -> None:

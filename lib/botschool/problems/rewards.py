@@ -15,7 +15,6 @@ from botschool.errors import BotschoolError
 
 if TYPE_CHECKING:
     from botschool.policies.policy import Policy
-    from botschool.problems.native import NativeProblem
 
 
 def aim(problem: str, options: Any, reward: str, ends: str) -> Any:
@@ -32,7 +31,7 @@ def aim(problem: str, options: Any, reward: str, ends: str) -> Any:
 
 
 def unmeasured(
-    problem: NativeProblem,
+    problem: Any,
     policy: Policy,
     genotypes: np.ndarray,
     normalisation: np.ndarray | None,

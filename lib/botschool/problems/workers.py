@@ -15,9 +15,15 @@ from typing import Any
 
 import numpy as np
 
-from botschool.errors import BotschoolError
+from botschool.errors import BotschoolError, Option
 from botschool.policies.hyperparameters import PolicyConfig
-from botschool.problems.base import Episodes, Interrupted, Outcome, say_unrepeatable
+from botschool.problems.base import (
+    Episodes,
+    Interrupted,
+    Outcome,
+    say_unrepeatable,
+    vectors_of,
+)
 
 # Chunks per worker in a batch: enough to even out long episodes.
 CHUNKS = 10
@@ -66,8 +72,9 @@ class Workers:
                 deaths = 0 if len(done) > before else deaths + 1
                 if deaths == PATIENCE:
                     raise BotschoolError(
-                        f"The worker processes of {self._name} died {PATIENCE} times in a row; "
-                        "run with -w 1 to see why, or with fewer workers if memory is short."
+                        f"The worker processes of {self._name} died {PATIENCE} times in a row; ",
+                        Option("run with -w 1", "use workers=1"),
+                        " to see why, or fewer workers if memory is short.",
                     ) from None
         outcomes = [done[i] for i in range(len(chunks))]
         moments = None
@@ -105,8 +112,7 @@ class Workers:
             shape = chosen.candidate.shape
             used, places = np.unique(chosen.candidate, return_inverse=True)
             chosen.candidate = places.reshape(shape)
-            own = normalisation is not None and normalisation.ndim == 2
-            vectors = normalisation[used] if own else normalisation
+            vectors = vectors_of(normalisation, used)
             with _unheard(signal.SIGINT):  # only the main process handles Ctrl-C
                 future = self._pools[i % self._workers].submit(
                     _evaluate, self._fresh, genotypes[used], vectors, chosen, maxsteps

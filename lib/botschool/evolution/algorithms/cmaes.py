@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from botschool.errors import BotschoolError
+from botschool.errors import SEED, BotschoolError
 from botschool.evolution.algorithm import Initial, algorithm
 from botschool.evolution.algorithms.gaussian import (
     Gaussian,
@@ -118,7 +118,9 @@ class FullMatrix:
         except ValueError:
             raise BotschoolError(
                 "CMA-ES has broken down: its covariance matrix holds numbers that are not finite, "
-                "so start anew with another seed (-s)."
+                "so start anew with another seed",
+                SEED,
+                ".",
             ) from None
         deviations = np.sqrt(np.maximum(values, values[-1] / CONDITION))
         self.root = product(rows.T * deviations, rows)

@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from botschool.errors import BotschoolError, said
+from botschool.errors import FORCE, BotschoolError, Option, said
 from botschool.evolution.algorithm import (
     ALGORITHMS,
     Entry,
@@ -207,7 +207,9 @@ class Own(Stateful):
         if at != len(told) or not np.isclose(self.seen, float(state["seen"]), rtol=1e-6):
             raise self._wrong(
                 "gives other candidates than before, so the run cannot be resumed: draw all random "
-                "numbers from the seed, undo your last change, or use --force to start anew"
+                "numbers from the seed, undo your last change, or use ",
+                FORCE,
+                " to start anew",
             )
 
     def _remember(self, fitness: np.ndarray) -> None:
@@ -279,8 +281,8 @@ class Own(Stateful):
                 f"fails in generation {self.generation}{place} with {type(error).__name__}{what}"
             ) from error
 
-    def _wrong(self, text: str) -> BotschoolError:
-        return BotschoolError(f"Your strategy {self.name} {text}.")
+    def _wrong(self, *parts: str | Option) -> BotschoolError:
+        return BotschoolError(f"Your strategy {self.name} ", *parts, ".")
 
 
 OFFERED: dict[str, Callable[..., Any]] = {}
