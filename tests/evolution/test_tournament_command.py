@@ -82,6 +82,13 @@ def test_pairs_are_measured_and_shown(es):
     assert code == 0 and "interval" not in single
 
 
+def test_one_generation_meets_those_before_it(es):
+    code, said, _ = es("m-40-20")
+    assert code == 0
+    assert re.findall(r"^ ?generation (\d+)  ", said, re.M) == ["0", "20", "40"]
+    assert len(re.findall(r"\d\.\d\d \(\d\.\d\d to \d\.\d\d\)", said)) == 6
+
+
 @pytest.mark.parametrize(
     ("text", "missing", "takes_part"),
     [

@@ -252,3 +252,23 @@ def test_damaged_settings_are_refused_in_a_sentence(tmp_path, text):
     (tmp_path / "config.yaml").write_text(text)
     with pytest.raises(BotschoolError, match=r"config\.yaml (cannot be read|does not describe)"):
         settings.Settings.load(tmp_path / "config.yaml")
+
+
+def test_images_are_seen_by_a_convolutional_network(tmp_path):
+    run = tiny(tmp_path, env="tiny_envs:Picture-v0", steps=64)
+    assert run.settings().policy == "cnn" and not run.settings().normalize
+    np.testing.assert_allclose(again(run, run.last), run.evaluations().returns[-1], rtol=1e-5)
+
+
+def test_robots_of_mujoco_have_entries_of_their_own(tmp_path):
+    usual = settings.defaults("ppo", "default")
+    for robot in ("Ant", "HalfCheetah", "Hopper", "Humanoid", "Pusher", "Swimmer", "Walker2d"):
+        found = settings.defaults("ppo", f"{robot}-v5")
+        assert found != usual and found["n_steps"] == 2048, robot
+        assert found == settings.defaults("ppo", f"{robot}-v4")
+    assert settings.defaults("sac", "Hopper-v5")["buffer_size"] == 1_000_000
+    pytest.importorskip("mujoco")
+    small = {"n_steps": 64, "batch_size": 32, "n_epochs": 1}
+    run = train("ppo", "Reacher-v5", tmp_path, params=small, steps=128, evaluations=1, episodes=1)
+    used = run.settings()
+    assert used.normalize and used.envs == 1 and used.parameters["learning_rate"] == 0.0003
