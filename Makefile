@@ -41,9 +41,7 @@ demo: $(READY) ## evolve an Acrobot and a hopping robot, draw their curves and f
 
 build: $(READY) ## the Python environment and the C++ module
 
-web: lib/botschool/page/spatial.wasm ## the core of pages, for `botschool page`
-
-lib/botschool/page/spatial.wasm: $(CPP_INPUTS) | .venv/.module
+web: .venv/.module ## compile the cores of pages anew, after a change of C++ (some minutes)
 	@tools/setup.sh web
 
 # What an exercise trains and simulates with can be large: its grader names the extras it needs.
@@ -68,7 +66,7 @@ PYTEST := $(BIN)/python -m pytest -q -n $(WORKERS) --dist worksteal
 test: .venv/.tests ## the quick tests
 	@$(PYTEST)
 
-test-all: .venv/.tests lib/botschool/page/spatial.wasm ## all tests but the proofs of the course
+test-all: .venv/.tests ## all tests but the proofs of the course
 	@$(PYTEST) -m "not course"
 
 book: .venv/.tests .venv/.extra-book ## a website of the texts and documents in results/book, for a folder or any host
@@ -86,7 +84,7 @@ fuzz: .venv/.tests ## damage files of every kind that the command reads, SECONDS
 skeletons: .venv/.module ## generate the exercises' files from the solutions
 	@$(BIN)/botschool skeletons
 
-wheels: .venv/.tools lib/botschool/page/spatial.wasm ## wheels for Python 3.10, 3.11, and 3.12 and later, in dist; PYTHONS="3.11" builds some
+wheels: .venv/.tools ## wheels for Python 3.10, 3.11, and 3.12 and later, in dist; PYTHONS="3.11" builds some
 	@$(BIN)/python tools/wheels.py $(PYTHONS)
 
 nbgrader: .venv/.tests ## a course folder for nbgrader in results/nbgrader

@@ -3,7 +3,6 @@
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 from botschool import _core
 from botschool.page.exercise import exercise_page
@@ -11,15 +10,6 @@ from botschool.page.markdown import FIGURE
 from botschool.problems.native import NativeProblem
 
 ROOT = Path(__file__).parents[1]
-BUILT = (ROOT / "lib/botschool/page/spatial.wasm").exists()
-
-
-def built(test):
-    """Mark a test that runs the core for pages."""
-    reason = "the core for pages is not built: make web"
-    return pytest.mark.slow(pytest.mark.skipif(not BUILT, reason=reason)(test))
-
-
 FOLDERS = {int(path.name[2:4]): path for path in sorted(ROOT.glob("exercises/ex[0-9]*"))}
 NAMED = {n: FIGURE.findall((path / "README.md").read_text()) for n, path in FOLDERS.items()}
 """The figures that each exercise's text names."""

@@ -425,6 +425,7 @@ build_web() {
         quietly cmake --build build/web/$part
         mv -f build/web/$part/$part.wasm lib/botschool/page/
     done
+    "$python" tools/core_sources.py >lib/botschool/page/core_sources.txt
 }
 
 build_book() {

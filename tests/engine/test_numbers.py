@@ -12,7 +12,7 @@ from numpy.random import Generator, Philox
 
 from botschool import _core
 from botschool.seeds import generator
-from test_page import built, core_of, experiment_of, node
+from test_page import core_of, experiment_of, node
 
 WORDS = st.integers(0, 2**64 - 1)
 COUNTS = st.one_of(
@@ -99,7 +99,7 @@ def test_wrong_arguments_are_refused():
     assert numbers.standard_normal(3, dtype=np.float32).dtype == np.float32
 
 
-@built
+@pytest.mark.slow
 def test_a_page_draws_the_same(tmp_path):
     """A million draws and the logarithms of a sample, in WebAssembly."""
     u, count = arguments(), 1_000_000

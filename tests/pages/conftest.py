@@ -4,18 +4,11 @@ import re
 
 import pytest
 
-from living import BUILT, open_figures
-
-
-@pytest.fixture(scope="session")
-def core():
-    """The core for pages; skipped where it is not built."""
-    if not BUILT:
-        pytest.skip("the core for pages is not built: make web")
+from living import open_figures
 
 
 @pytest.fixture
-def page(request, core, browser, tmp_path):
+def page(request, browser, tmp_path):
     """A browser with the living page of the exercise that names the test's file, 1280 pixels wide
     or as a test asks; the page has reported no error in the end."""
     number = int(re.search(r"ex(\d\d)$", request.module.__name__)[1])

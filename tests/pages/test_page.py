@@ -28,7 +28,6 @@ from botschool.render.scenes import make_scene
 from botschool.rl.model import choose
 from botschool.rl.native import files, training
 from botschool.rl.native import problem as problem_of_training
-from living import built
 
 ROOT = Path(__file__).parents[2]
 SCRIPTS = ROOT / "lib/botschool/page"
@@ -144,7 +143,7 @@ def evolved_by_node(experiment, seed, tmp_path, core=None):
     return node(tmp_path, script)
 
 
-@built
+@pytest.mark.slow
 @pytest.mark.parametrize("algo", ["OpenAI-ES", "SSS"])
 @pytest.mark.parametrize("problem", PROBLEMS)
 def test_run_files_are_the_command_s(problem, algo, tmp_path):
@@ -186,7 +185,7 @@ def baseline():
     return built_core
 
 
-@built
+@pytest.mark.slow
 @pytest.mark.parametrize("evolving", ["best", "random"])
 def test_arms_races_are_the_command_s(evolving, tmp_path):
     experiment = predators_and_prey(evolving=evolving)
@@ -217,7 +216,7 @@ console.log(JSON.stringify({
 """  # noqa: E501
 
 
-@built
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("env", "given"),
     [
@@ -373,7 +372,7 @@ def by_python(experiment, genotype, changes):
     return np.array(rows)
 
 
-@built
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("problem", "changes"),
     [
@@ -412,7 +411,7 @@ PAGES = (
 """Experiment files that can be pages."""
 
 
-@built
+@pytest.mark.slow
 def test_each_page_is_small_and_whole(tmp_path):
     """Each experiment file is a page below 250 KB, with its evolved robot, or is refused."""
     fitting = []
@@ -462,7 +461,7 @@ def test_a_hyperparameter_that_the_core_does_not_know_is_refused(tmp_path):
         page.write_page(tmp_path / "a.html", experiment)
 
 
-@built
+@pytest.mark.slow
 def test_the_core_refuses_settings_that_it_does_not_know(tmp_path):
     place = str(SCRIPTS / "classic.wasm")
     said = node(
@@ -513,7 +512,7 @@ ROWS = (
 )
 
 
-@built
+@pytest.mark.slow
 def test_predators_and_prey_in_a_browser(browser, tmp_path):
     experiment = config.load(ROOT / "data/experiments/predprey.ini")
     saved = np.load(ROOT / "data/genotypes/predprey/S12G300.npy")
@@ -552,7 +551,7 @@ MODELS = """(async () => {
 })()"""
 
 
-@built
+@pytest.mark.slow
 def test_a_training_in_a_browser(browser, tmp_path):
     """CartPole by PPO, a part of the training that the command does by itself."""
     settings = replace(settings_of("CartPole-v1", 3), steps=10_000)
@@ -579,7 +578,7 @@ def test_a_training_in_a_browser(browser, tmp_path):
     assert browser.errors == []
 
 
-@built
+@pytest.mark.slow
 def test_the_first_picture_needs_no_core(browser, tmp_path):
     path, _ = written(experiment_of("CartPole-v1", "SSS"), tmp_path)
     before, _, rest = path.read_text().partition('<script id="core" type="text/plain">')
@@ -591,7 +590,7 @@ def test_the_first_picture_needs_no_core(browser, tmp_path):
     assert browser.run(colours) > 3
 
 
-@built
+@pytest.mark.slow
 def test_in_a_browser(browser, tmp_path):
     experiment = experiment_of("ErDiscrim", "OpenAI-ES", maxsteps=200)
     expected = digests_of_the_command(experiment, 3, tmp_path / "run")
@@ -635,7 +634,7 @@ CONTROLS = """[...document.querySelectorAll(
 ].filter((one) => one.checkVisibility()).length"""
 
 
-@built
+@pytest.mark.slow
 def test_by_keyboard_alone(browser, tmp_path):
     """Every control is reached in order, has a name, and does what a click would do."""
     experiment = experiment_of("ErDiscrim", "OpenAI-ES", maxsteps=200, architecture=3)

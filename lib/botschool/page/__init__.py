@@ -21,7 +21,6 @@ from botschool.config import Experiment, to_dict
 from botschool.errors import BotschoolError
 from botschool.output import check_output, save_bytes
 from botschool.page.twins import twin
-from botschool.paths import material, uses_make
 from botschool.policies.hyperparameters import NETWORK
 from botschool.problems.native import NativeProblem
 from botschool.render.panel import neuron_groups
@@ -84,20 +83,13 @@ def part_of(problem: str) -> str:
 
 
 def core(problem: str) -> bytes:
-    """Return the compiled core of a problem. Raises BotschoolError if it was not built."""
+    """Return the compiled core of a problem."""
     return core_file(part_of(problem))
 
 
 def core_file(part: str) -> bytes:
-    """Return the compiled core of a part. Raises BotschoolError if it was not built."""
-    place = files("botschool.page") / f"{part}.wasm"
-    if not place.is_file():
-        checkout = uses_make(material())
-        how = "type `make web` in the checkout (a minute or two, once), or " if checkout else ""
-        raise BotschoolError(
-            f"The core for pages is not built here: {how}install a wheel of botschool that has it."
-        )
-    return place.read_bytes()
+    """Return the compiled core of a part."""
+    return (files("botschool.page") / f"{part}.wasm").read_bytes()
 
 
 def problem_scene(problem: NativeProblem) -> Any:

@@ -48,7 +48,7 @@ def write_exercise_page(
     """Write the page of an exercise and return its path.
 
     folder: exercises/exNN_name. path: the page; by default PAGE in the folder. link: as in
-    `render`. Raises BotschoolError if the core of its figures is not built.
+    `render`.
     """
     path = path or folder / PAGE
     save_bytes(path, exercise_page(folder, link).encode())

@@ -50,7 +50,5 @@ def _copy(
     for path in done.edited:
         print(f"not changed, because it was edited: {path}")
     print(f"{folder}: {done.files} files for students, {done.written} of them new or changed.")
-    if done.pageless:
-        print(f"The copy has no pages with figures. {done.pageless}")
     if done.unknown:
         print(f"botschool could not note that you trust this course. {done.unknown}")

@@ -64,8 +64,6 @@ class Released:
     """Files that were left alone, because somebody has edited them."""
     unknown: str = ""
     """Why the user's trust in the copy could not be noted."""
-    pageless: str = ""
-    """Why the copy has no living pages."""
 
 
 def release(
@@ -88,7 +86,7 @@ def release(
     trusted: whether the user may run the copy's graders at its place.
     compiled: whether the copy gets botschool's source and compiles it; otherwise it uses the
     installed botschool, or installs one of the wheels.
-    pages: whether each exercise gets its living page, where the core for pages is built.
+    pages: whether each exercise gets its living page.
     tasks: points of tasks, as in declare/weights.py.
 
     The function makes a new copy as a whole or not at all. An existing copy keeps its exercises,
@@ -115,16 +113,13 @@ def release(
             (made / WHEELS).mkdir(exist_ok=True)
             shutil.copy(wheel, made / WHEELS)
         _pack_answers(root, made, with_answers)
-        pageless = _add_pages(made) if pages else ""
+        if pages:
+            _add_pages(made)
         files = _finish(root, made)
         if not target.is_dir() or not any(target.iterdir()):
-            return _placed(
-                made, target, Released(len(files), len(files), pageless=pageless), trusted
-            )
+            return _placed(made, target, Released(len(files), len(files)), trusted)
         try:
-            done = _update(made, target, manifest, files)
-            done.pageless = pageless
-            return done
+            return _update(made, target, manifest, files)
         except OSError as error:
             raise BotschoolError(
                 f"Cannot write {error.filename} ({error.strerror}): the copy is not up to "
@@ -271,20 +266,16 @@ def _pack_answers(root: Path, made: Path, wanted: bool) -> None:
         packed_file.unlink()
 
 
-def _add_pages(made: Path) -> str:
-    """Write each exercise's living page beside its text; return why there are none, or ""."""
+def _add_pages(made: Path) -> None:
+    """Write each exercise's living page beside its text."""
     # A wheel is built before the module that pages need.
     from botschool.page.exercise import PAGE, has_page, linked, write_exercise_page
 
     for text in sorted(made.glob("exercises/ex[0-9][0-9]_*/README.md")):
         if not has_page(text.parent):
             continue
-        try:
-            write_exercise_page(text.parent)
-        except BotschoolError as error:
-            return str(error)
+        write_exercise_page(text.parent)
         _change(text, partial(linked, target=PAGE))
-    return ""
 
 
 def _change(path: Path, change) -> None:

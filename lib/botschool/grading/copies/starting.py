@@ -54,8 +54,7 @@ def start(number: int, root: Path) -> tuple[Path, bool]:
 def living_page(number: int, root: Path) -> Path | None:
     """Return the living page of an exercise, made anew unless it came with the copy.
 
-    Return None if the exercise's text has no figures. Raises BotschoolError if the core for pages
-    is not built.
+    Return None if the exercise's text has no figures.
     """
     folder = folder_of(number, root)
     if not has_page(folder):
