@@ -67,7 +67,9 @@ def adds(student: Student):
     expect_close(student.said, answer, numbers.sum())
 '''
 
-HINTS = """# Hints
+HINTS = """# Tiny
+
+<!-- hints: here
 
 ## 3.1
 
@@ -82,6 +84,8 @@ HINTS = """# Hints
 ## 3.2
 
 1. Look at `np.sum`.
+
+-->
 """
 
 
@@ -93,8 +97,7 @@ def make_course(root: Path) -> Path:
         + "Twice two is four, as was measured. " * 3,
         f"exercises/{FOLDER}/{FILE}": skeleton(SOLUTION),
         f"exercises/{FOLDER}/test_tiny.py": GRADER,
-        f"exercises/{FOLDER}/HINTS.md": HINTS,
-        f"exercises/{FOLDER}/README.md": "# Tiny\n",
+        f"exercises/{FOLDER}/README.md": HINTS,
         "tests/course/test_secret.py": "",
         "tests/test_open.py": "",
         "lib/code.py": "x = 1\n",

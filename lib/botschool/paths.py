@@ -17,6 +17,9 @@ from botschool.errors import BotschoolError, said
 MATERIAL = "material"
 """Folder of the installed package with a copy of the course, as `botschool course` makes it."""
 
+HINTS = "<!-- hints:"
+"""With this an exercise's text begins the comment that holds its hints."""
+
 
 def course_root() -> Path:
     """Return the folder that holds exercises/: the current one or the nearest one above it.

@@ -64,7 +64,6 @@ def course(tmp_path_factory):
             f"exercises/{folder}/{file_of(number)}": text_of(0, number),
             f"exercises/{folder}/test_tiny.py": grader.replace('"3.', f'"{number}.').encode(),
             f"exercises/{folder}/README.md": b"# Tiny\n",
-            f"exercises/{folder}/HINTS.md": b"# Hints\n",
         }
         written(root, files)
     trust(root)

@@ -81,7 +81,7 @@ def test_points_and_tasks(number):
 @pytest.mark.course
 @for_each_exercise
 def test_hints_for_every_task(number):
-    hints = read_hints(text_of(number, "HINTS.md"))
+    hints = read_hints(text_of(number, "README.md"))
     assert list(hints) == [task.id for task in building.exercise(number).tasks]
     for task, found in hints.items():
         assert 2 <= len(found) <= 4, f"task {task} has {len(found)} hints"

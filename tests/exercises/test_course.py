@@ -59,8 +59,7 @@ def sixteen(tmp_path):
         f"solutions/ex16_tiny/{tiny_course.FILE}": tiny_course.SOLUTION,
         f"exercises/ex16_tiny/{tiny_course.FILE}": skeleton(tiny_course.SOLUTION),
         "exercises/ex16_tiny/test_tiny.py": tiny_course.GRADER,
-        "exercises/ex16_tiny/HINTS.md": tiny_course.HINTS,
-        "exercises/ex16_tiny/README.md": "# Exercise 16. Tiny\n",
+        "exercises/ex16_tiny/README.md": tiny_course.HINTS.replace("# Tiny", "# Exercise 16. Tiny"),
     }
     for name, text in texts.items():
         text = re.sub(r"\b3\.([12])\b", r"16.\1", text).replace("Exercise(3,", "Exercise(16,")

@@ -11,10 +11,13 @@ import psutil
 import pytest
 from rich.console import Console
 
+from botschool.errors import BotschoolError
+from botschool.grading.copies.new import new_exercise
 from botschool.grading.copies.skeleton import skeleton, write_skeletons
 from botschool.grading.declare import exercise as exercises
 from botschool.grading.declare.checks import NotDone, Wrong, expect_array, plain, show
 from botschool.grading.declare.exercise import load_exercise
+from botschool.grading.declare.trust import trust
 from botschool.grading.judge.points import GraderFault, grade_task
 from botschool.grading.judge.submission import Submission, grade
 from botschool.grading.report.hints import next_hints, read_hints
@@ -402,3 +405,16 @@ def test_a_fault_of_the_grader_is_no_zero(course, tmp_path):
     result = grade(exercise, file)
     assert result.tasks[0].points == 20
     assert "cannot be judged (TypeError" in result.tasks[0].message
+
+
+@pytest.mark.slow
+def test_a_new_exercise_grades(tmp_path, server):
+    for name in ("exercises", "solutions"):
+        (tmp_path / name).mkdir()
+    solution, _, _, empty, _ = new_exercise(tmp_path, 16, "Largest values")
+    trust(tmp_path)
+    exercise = load_exercise(16, tmp_path)
+    assert grade(exercise, empty, server=server).points == 0
+    assert grade(exercise, solution, server=server).points == 100
+    with pytest.raises(BotschoolError, match="already"):
+        new_exercise(tmp_path, 16, "Another")

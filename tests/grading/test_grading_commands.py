@@ -233,7 +233,7 @@ def test_release(course, tmp_path):
     }
     assert names == {
         "Makefile", "lib/code.py", "docs/guide.md", MANIFEST,
-        *(f"exercises/{FOLDER}/{n}" for n in (FILE, "test_tiny.py", "HINTS.md", "README.md")),
+        *(f"exercises/{FOLDER}/{n}" for n in (FILE, "test_tiny.py", "README.md")),
         f"exercises/{FOLDER}/ANSWERS.packed",
     }  # fmt: skip
     assert done.files == done.written == len(names) - 1

@@ -26,9 +26,7 @@ def test_a_page_is_small_and_whole(number):
     shown = text.partition("<main>")[2].partition("</main>")[0]
     assert "$" not in re.sub(r"<(code|pre|math)\b.*?</\1>", "", shown, flags=re.DOTALL)
     assert not re.search(r'<img src="(?!data:)', shown)
-    script = (
-        FOLDERS[number].parents[1] / f"lib/botschool/page/figures/ex{number:02d}.js"
-    ).read_text()
+    script = (FOLDERS[number] / "figure.js").read_text()
     assert set(NAMED[number]) == set(re.findall(r'^figure\("(\w+)"', script, re.MULTILINE))
     assert len(script.splitlines()) < 400
 

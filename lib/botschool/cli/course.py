@@ -396,3 +396,17 @@ def skeletons() -> None:
 
     for path in write_skeletons(course_root()):
         print(f"not changed, because it was edited: {path}")
+
+
+@app.command("new-exercise", epilog='Example: botschool new-exercise 16 "Largest values"')
+def new_exercise(
+    number: Annotated[int, typer.Argument(help="Number of the exercise.", metavar="N")],
+    title: Annotated[str, typer.Argument(help="Its title.", metavar="TITLE")],
+) -> None:
+    """For instructors: begin an exercise of your own, in a checkout, with a grader that works."""
+    from botschool.grading.copies.new import new_exercise
+    from botschool.paths import course_root
+
+    for path in new_exercise(course_root(), number, title):
+        print(path)
+    print(f"Try it: botschool grade {number} --submission solutions")

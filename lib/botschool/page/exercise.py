@@ -1,6 +1,6 @@
 """Write an exercise's text as a self-contained page with figures that answer the hand.
 
-A text names its figures, `<!-- figure: NAME -->`. Their scripts are in figures/exNN.js. Where they
+A text names its figures, `<!-- figure: NAME -->`. Their script is figure.js beside it. Where they
 need robots or numbers, figures/exNN.py says which (docs/architecture.md).
 """
 
@@ -22,7 +22,7 @@ from botschool import config, problems
 from botschool.output import save_bytes
 from botschool.page import core_file, describe, packed, shorter
 from botschool.page.markdown import FIGURE, render
-from botschool.paths import material
+from botschool.paths import HINTS, material
 from botschool.problems.native import NativeProblem
 from botschool.render.replay import drawing, palette
 
@@ -67,13 +67,15 @@ def exercise_page(folder: Path, link: Callable[[str], str] = lambda target: targ
     text = (folder / "README.md").read_text(encoding="utf-8")
     data, core = needs(name)
     place = files("botschool.page")
-    names = [*SCRIPTS, f"figures/{name}.js"]
-    read = [shorter((place / script).read_text("utf-8")) for script in names]
+    read = [shorter((place / script).read_text("utf-8")) for script in SCRIPTS]
+    own = folder / "figure.js"
+    if own.is_file():
+        read.append(shorter(own.read_text("utf-8")))
     page = (place / "exercise.html").read_text(encoding="utf-8")
     title = text.partition("\n")[0].lstrip("# ")
     for mark, content in (
         ("/*TITLE*/", title),
-        ("/*TEXT*/", render(POINTER.sub("", text), folder, link)),
+        ("/*TEXT*/", render(POINTER.sub("", text.partition(HINTS)[0]), folder, link)),
         ("/*DATA*/", packed(json.dumps(data, separators=(",", ":")).encode())),
         ("/*CORE*/", packed(core) if core else ""),
         ("/*SCRIPTS*/", "\n".join([_painter(data), *read])),

@@ -1,4 +1,6 @@
-"""Show one more hint each time. HINTS.md has a section `## N.T` with a numbered list per task."""
+"""Show one more hint each time. An exercise's text ends with its hints, in a comment that pages
+leave out: a section `## N.T` with a numbered list for each task.
+"""
 
 from __future__ import annotations
 
@@ -11,14 +13,15 @@ from botschool.grading.declare.exercise import folder_of
 from botschool.grading.declare.state import make_state, stored
 from botschool.lock import alone
 from botschool.output import save_bytes
+from botschool.paths import HINTS
 
-FILE = "HINTS.md"
 _SECTION = re.compile(r"^##\s+(?:Task\s+)?(\d+\.\d+)\b", re.IGNORECASE)
 _ITEM = re.compile(r"^(\d+)[.)]\s+")
 
 
 def read_hints(text: str) -> dict[str, list[str]]:
-    """Return task -> its hints, from the text of a HINTS.md."""
+    """Return task -> its hints, from the text of an exercise."""
+    text = text.partition(HINTS)[2].partition("\n-->")[0]
     hints: dict[str, list[str]] = {}
     task, fenced = None, False
     for line in text.splitlines():
@@ -46,9 +49,11 @@ def next_hints(task: str, root: Path) -> tuple[list[str], int, bool]:
 
     The course folder stores how many hints were shown. Raises BotschoolError.
     """
-    path = folder_of(int(task.split(".")[0]), root) / FILE
+    path = folder_of(int(task.split(".")[0]), root) / "README.md"
+    older = path.with_name("HINTS.md")  # of copies that were made before
     try:
-        hints = read_hints(path.read_text(encoding="utf-8")).get(task)
+        text = HINTS + older.read_text("utf-8") if older.is_file() else path.read_text("utf-8")
+        hints = read_hints(text).get(task)
     except OSError:
         raise BotschoolError(f"Cannot read the hints in {path}: restore the file.") from None
     if not hints:
