@@ -33,7 +33,6 @@ from botschool.grading.run.confined import MachineFault
 from botschool.grading.run.student import Student
 from botschool.labs.declare import STRATEGY, Condition
 from botschool.labs.saved import MAX_BYTES, SavedRun, member, numbers, stat_of
-from botschool.sandbox.inside import read_inside
 from botschool.wrappers import keywords
 
 GENERATIONS = 5
@@ -167,16 +166,11 @@ def _met_alike(run: SavedRun) -> bool:
 
 def told_fitness(run: SavedRun, folder: Path) -> np.ndarray | None:
     """Return all fitness values that the checkpoint holds; None if it is missing or damaged."""
-    file = RunFiles(folder / run.condition.name, run.seed).checkpoint
-    try:
-        content = read_inside(file.parent, file.name, MAX_BYTES)
-        if len(content) > MAX_BYTES:
-            return None
-        told = member(content, "algorithm.told", MAX_BYTES)
-    except (OSError, ValueError, KeyError):
-        return None
-    good = told.dtype == np.float64 and told.ndim == 1 and np.isfinite(told).all()
-    return told if good else None
+    return numbers(
+        RunFiles(folder / run.condition.name, run.seed).checkpoint,
+        1,
+        lambda content: member(content, "algorithm.told", MAX_BYTES),
+    )
 
 
 def replayed(run: SavedRun, folder: Path, student: Student, rng: np.random.Generator) -> str:

@@ -26,8 +26,7 @@ def _robot(run: Run) -> tuple[Any, Any, int]:
     experiment = from_dict(run["experiment"])
     problem = problems.of(experiment)
     policy = problem.policy(experiment.policy)
-    if not experiment.competitive:
-        policy.load(*policy.split(np.asarray(run["genotype"])))
+    policy.load(*policy.split(np.asarray(run["genotype"])))
     return problem, policy, experiment.policy.maxsteps
 
 
@@ -124,26 +123,14 @@ def chases(run: Run, best: int = 5) -> np.ndarray:
     Return the predators' fitness, shape (G, n, G, n): entry [g, i, h, j] belongs to predator i of
     the g-th saved generation against prey j of the h-th one. best: n.
     """
-    from botschool.problems import Episodes
+    from botschool.analysis.tournament import Contest
+    from botschool.config import from_dict
 
-    problem, policy, steps = _robot(run)
     sides = [np.split(np.asarray(each), 2) for each in run["populations"].values()]
-    predators = np.concatenate([each[0][:best] for each in sides])
-    prey = np.concatenate([each[1][:best] for each in sides])
-    row, column = np.indices((len(predators), len(prey)), dtype=np.int32).reshape(2, -1)
-    met = problem.evaluate(
-        policy,
-        np.concatenate([predators, prey]),
-        None,
-        Episodes(
-            np.ascontiguousarray(np.stack([row, column + len(predators)]), dtype=np.int32),
-            np.zeros(len(row), dtype=np.uint64),
-            np.zeros(len(row), dtype=np.uint32),
-        ),
-        steps,
-    )
-    count = len(sides)
-    return met.fitness.reshape(count, len(predators) // count, count, len(prey) // count)
+    predators, prey = (np.stack([each[side][:best] for each in sides]) for side in (0, 1))
+    with Contest(from_dict(run["experiment"]), 0) as contest:
+        met = contest.meet(np.concatenate(predators), np.concatenate(prey))
+    return met.reshape(*predators.shape[:2], *prey.shape[:2])
 
 
 def seconds_per_million(number: int, condition: str) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import re
 import zipfile
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import prod
 from pathlib import Path
@@ -77,14 +78,17 @@ def plain_runs(runs: list[SavedRun], others: bool) -> list[dict[str, Any]]:
     return told
 
 
-def numbers(path: Path, dimensions: int) -> np.ndarray | None:
-    """Return the finite float64 numbers of a regular file; None if it does not hold any."""
+def numbers(
+    path: Path, dimensions: int, of: Callable[[bytes], np.ndarray] | None = None
+) -> np.ndarray | None:
+    """Return the finite float64 numbers of a regular file; None if it does not hold any.
+
+    of: reads them from the file's content; `array_of` by default.
+    """
     try:
         content = read_inside(path.parent, path.name, MAX_BYTES)
-        if len(content) > MAX_BYTES:
-            return None
-        array = array_of(content)
-    except (OSError, ValueError):
+        array = (of or array_of)(content) if len(content) <= MAX_BYTES else np.zeros(0)
+    except (OSError, ValueError, KeyError):
         return None
     good = array.dtype == np.float64 and array.ndim == dimensions and array.size
     return array if good and np.isfinite(array).all() else None
