@@ -60,7 +60,7 @@ def _changed(value: Any, other: Any) -> Iterator[tuple[tuple, Any]]:
         if not isinstance(value, (list, tuple)) or len(value) == len(other):
             yield (), other
     elif isinstance(value, int) and not isinstance(value, bool) and value >= 2:
-        yield (), value - 2  # even numbers stay even
+        yield (), value - 2 if value > 3 else value + 2  # even numbers stay even, and none is 0
     elif isinstance(value, float) and value:
         yield (), value / 2
     if isinstance(value, list) and len(value) <= SETTINGS and numbers(value):
