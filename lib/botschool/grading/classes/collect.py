@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import os
 import re
+from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
@@ -91,7 +92,8 @@ def grade_all(
             for number in asked
         ]
         lists = [each.students for each in (policy.people, policy.gradebook) if each]
-        known = frozenset(word for students in lists for each in students for word in each.words)
+        words = [Counter(w for each in students for w in each.words) for students in lists]
+        known = frozenset(word for own in words for word, count in own.items() if count == 1)
         export = read_download(download, wanted, new_folder, known)
         people = find_submissions(export.people, wanted, root, new_folder)
         handed_in = {number for one in people for number in one.files}

@@ -19,7 +19,7 @@ Values = Mapping[str, str]
 WHOLE = "the whole name"
 ENOUGH = 3
 """Rows that a pair joins if it is no chance."""
-_MOST_PIECES = 8
+_MOST_PIECES, _MOST_WORDS = 8, 6
 _DERIVED = " \u2192 "
 """Stands in the label of a value that is computed from a cell."""
 _MARKS = re.compile("[\u200e\u200f\u202a-\u202e\u2066-\u2069\ufeff]")
@@ -110,8 +110,8 @@ def derive(rows: Sequence[dict[str, str]], labels: Sequence[str]) -> None:
     """Add values computed from a table's cells.
 
     The number in "Participant 9001" if all cells of the column have the same words around it, a
-    cell without signs that all have in front, what stands before an @, and two neighbours as one
-    name.
+    cell without signs that all have in front, what stands before an @, two neighbours as one name,
+    and a name in one word from each of its later words on, as Canvas writes it: bergada.
     """
     for label in labels:
         cells = [row[label] for row in rows if row.get(label)]
@@ -126,12 +126,22 @@ def derive(rows: Sequence[dict[str, str]], labels: Sequence[str]) -> None:
                 row[f"{label}{_DERIVED}without {min(signs)}"] = cell[len(min(signs)) :]
             if cell.count("@") == 1 and " " not in cell:
                 row[f"{label}{_DERIVED}before the @"] = cell.partition("@")[0]
+            words = ["".join(filter(_is_letter, word)) for word in folded(cell).split()]
+            for at in range(1, len(words)) if is_name(cell) and len(words) <= _MOST_WORDS else ():
+                row[f"{label}{_DERIVED}in one word from {at + 1}"] = "".join(
+                    words[at:] + words[:at]
+                )
     for a, b in itertools.pairwise(labels):
         for row in rows:
             both = row.get(a, ""), row.get(b, "")
             if all(both) and is_name(" ".join(both)):
                 row[f"{a}{_DERIVED}with {b}"] = " ".join(both)
                 row[f"{b}{_DERIVED}with {a}"] = " ".join(reversed(both))
+
+
+def _is_letter(sign: str) -> bool:
+    """Return whether a sign is a letter, a digit, or a vowel or accent of its own."""
+    return sign.isalnum() or unicodedata.category(sign)[0] == "M"
 
 
 def _is_derived(label: str) -> bool:

@@ -99,9 +99,6 @@ class Members:
         self.notes += self._answers.notes
         if people and book and people is not book:
             self._add_book()
-        elif people and not book:
-            for student in self.students:
-                student.rows = []
 
     def _add_book(self) -> None:
         """Join the platform's table to the class list."""
@@ -307,7 +304,7 @@ class Register(Members):
         book = self.policy.gradebook or self.policy.people
         if book is None or book.kind != "moodle":
             return
-        of_rows = {id(s): s.rows for s in self.students} if self.policy.gradebook else {}
+        of_rows = {id(student): student.rows for student in self.students}
         for row in self.rows:
             lines = of_rows.get(id(row.student), [])
             for part in row.parts:

@@ -43,7 +43,7 @@ class Student:
     cells: dict[str, str] = field(default_factory=dict)
     """The row's own cells, by their heads, for the table of grades."""
 
-    @cached_property
+    @property
     def words(self) -> set[str]:
         """Return the words by which settings may name the person."""
         return {folded(text) for text in [self.name, *self.values.values()] if text}

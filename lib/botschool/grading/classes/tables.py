@@ -65,6 +65,8 @@ def read_table(path: Path) -> Table:
     if kind_of(content[:512], path.name):
         raise BotschoolError(f"{path} is no CSV file: open it in Excel and save it as CSV (UTF-8).")
     text, encoding = decoded(content)
+    if encoding.startswith("Latin-1"):  # of which Windows has an extension
+        text = content.decode("cp1252", "replace")
     named = _SEPARATOR.match(text)
     text = text[named.end() :] if named else text
     first = text.lstrip("\r\n").partition("\n")[0]
