@@ -20,6 +20,7 @@ nb::dict to_dict(const Link& link) {
   d["stiffness"] = h.stiffness;
   d["armature"] = h.armature;
   d["motor"] = link.motor;
+  d["slides"] = link.slides;
   d["mass"] = link.mass;
   d["centre"] = to_tuple(link.centre);
   return d;
@@ -35,12 +36,13 @@ nb::dict to_dict(const SpatialBody& body) {
     shapes.append(nb::make_tuple(s.link, to_tuple(s.place), to_tuple(s.half), s.radius));
   }
   for (const Ball& b : body.balls())
-    balls.append(nb::make_tuple(b.link, to_tuple(b.place), b.radius));
+    balls.append(nb::make_tuple(b.link, to_tuple(b.place), b.radius, b.name));
   d["name"] = solid.name;
   d["links"] = links;
   d["shapes"] = shapes;
   d["balls"] = balls;
   d["motors"] = solid.motors;
+  d["fixed"] = solid.fixed;
   return d;
 }
 
@@ -118,9 +120,10 @@ void bind_spatial(nb::module_& module) {
                      return nb::make_tuple(ground.slope, ground.step, ground.bumps);
                    })
       .def("declare", &Race::declare, nb::arg("names"), nb::arg("links"), nb::arg("shapes"),
-           nb::arg("firmness"), nb::kw_only(), nb::arg("seconds"), nb::arg("substeps"),
-           nb::arg("height"), nb::arg("noise"), nb::arg("low"), nb::arg("high"), nb::arg("alive"),
-           nb::arg("effort"));
+           nb::arg("shape_names"), nb::arg("pairs"), nb::arg("pose"), nb::arg("firmness"),
+           nb::kw_only(), nb::arg("fixed") = false, nb::arg("soft") = true, nb::arg("seconds"),
+           nb::arg("substeps"), nb::arg("height"), nb::arg("noise"), nb::arg("low"),
+           nb::arg("high"), nb::arg("alive"), nb::arg("effort"));
   nb::class_<Whole>(module, "SpatialBody")
       .def(nb::init<const std::string&>(), nb::arg("name"))
       .def(nb::init<const Race&>(), nb::arg("race"), nb::keep_alive<1, 2>())

@@ -1,6 +1,7 @@
 // What the bindings share about races in space.
 #pragma once
 
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -14,9 +15,11 @@ namespace botschool {
 /// Choices about a race in space, and the tables of a declared body.
 struct Race {
   SpaceOptions options;
-  std::vector<std::string> names;
+  std::vector<std::string> names, shape_names;
   std::vector<Link> links;
   std::vector<Shape> shapes;
+  std::vector<Pair> pairs;
+  std::vector<double> pose;
   Solid solid{};
   Course course{};
 
@@ -31,22 +34,28 @@ struct Race {
   Race(const Race&) = delete;
 
   /// A row a link: parent, place, axis, lower and upper limit, torque, damping, stiffness, armature,
-  /// motor, mass, centre, inertia, servo. A row a shape: link, place, half axis, radius.
+  /// motor, mass, centre, inertia, servo; its drive, rest, dry friction, whether it slides. A row a
+  /// shape: link, place, half axis, radius. pose: quaternion and angles at the start.
   void declare(const std::vector<std::string>& given, Matrix<const double> rows,
-               Matrix<const double> forms, const Firmness& firm, double seconds, int substeps,
+               Matrix<const double> forms, const std::vector<std::string>& forms_given,
+               const std::vector<std::pair<int, int>>& meeting, std::vector<double> start,
+               const Firmness& firm, bool fixed, bool soft, double seconds, int substeps,
                double height, double noise, double low, double high, double alive, double effort) {
     const std::size_t n = rows.shape(0), s = forms.shape(0);
-    if (rows.shape(1) != 25 || forms.shape(1) != 8 || given.size() != n)
-      throw std::invalid_argument("a link has a name and 25 numbers, and a shape has 8.");
-    if (n < 2 || n > std::size_t(kMaxLinks) || s > std::size_t(kMaxBalls / 2))
+    if (rows.shape(1) != kLinkRow || forms.shape(1) != 8 || given.size() != n ||
+        forms_given.size() != s || start.size() != n + 3)
+      throw std::invalid_argument("a link has a name and 35 numbers, and a shape a name and 8.");
+    if (n < 2 || n > std::size_t(kMaxLinks) || meeting.size() > std::size_t(kMaxPairs))
       throw std::invalid_argument("a body has 2 to " + std::to_string(kMaxLinks) +
-                                  " links and at most " + std::to_string(kMaxBalls / 2) +
-                                  " shapes, but this one has " + std::to_string(n) + " and " +
-                                  std::to_string(s) + ".");
+                                  " links and at most " + std::to_string(kMaxPairs) +
+                                  " pairs that touch, but this one has " + std::to_string(n) +
+                                  " and " + std::to_string(meeting.size()) + ".");
     names = given;
+    shape_names = forms_given;
+    pose = std::move(start);
     int motors = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      const double* r = rows.data() + i * 25;
+      const double* r = rows.data() + i * kLinkRow;
       if (r[0] >= double(i) || (i > 0 && r[0] < 0))
         throw std::invalid_argument("a link comes after its parent.");
       Link link{names[i].c_str(),
@@ -57,7 +66,11 @@ struct Race {
                 int(r[13]),
                 r[14],
                 {r[15], r[16], r[17]},
-                {}};
+                {},
+                {r[25], r[26], r[27], r[28], r[29], r[30], r[31]},
+                r[32],
+                r[33],
+                r[34] != 0};
       std::copy(r + 18, r + 24, link.inertia);
       motors = std::max(motors, link.motor + 1);
       links.push_back(link);
@@ -65,15 +78,39 @@ struct Race {
     for (std::size_t i = 0; i < s; ++i) {
       const double* r = forms.data() + i * 8;
       if (r[0] < 0 || r[0] >= double(n)) throw std::invalid_argument("a shape lies on a link.");
-      shapes.push_back({int(r[0]), {r[1], r[2], r[3]}, {r[4], r[5], r[6]}, r[7]});
+      shapes.push_back(
+          {int(r[0]), {r[1], r[2], r[3]}, {r[4], r[5], r[6]}, r[7], shape_names[i].c_str()});
+    }
+    for (const auto& [one, other] : meeting) {
+      if (one < 0 || other < 0 || std::size_t(std::max(one, other)) >= s)
+        throw std::invalid_argument("two shapes touch each other.");
+      pairs.push_back({one, other});
     }
     if (motors > int(n)) throw std::invalid_argument("a motor moves one hinge.");
-    solid = {"body", links.data(), shapes.data(), nullptr, int(n), int(s), 0, motors, 0, firm};
+    solid = {"body",
+             links.data(),
+             shapes.data(),
+             pairs.data(),
+             int(n),
+             int(s),
+             int(pairs.size()),
+             motors,
+             0,
+             firm,
+             fixed,
+             soft};
+    if (Balls(solid).full)
+      throw std::invalid_argument("a body touches the ground at no more than " +
+                                  std::to_string(kMaxBalls) + " points.");
     course = {&solid, seconds, substeps, height, noise, false, low, high};
     course.alive = alive;
     course.effort = effort;
+    course.pose = pose.data();
     options.course = &course;
   }
+
+ private:
+  static constexpr int kLinkRow = 35;
 };
 
 }  // namespace botschool

@@ -83,8 +83,8 @@ def episodes():
 
 @pytest.fixture
 def round_wheels(tmp_path):
-    (tmp_path / "round.urdf").write_text(ROUND)
-    return tmp_path / "round.urdf"
+    (tmp_path / "balance_bot.urdf").write_text(ROUND)
+    return tmp_path / "balance_bot.urdf"
 
 
 def test_it_falls_as_in_pybullet(round_wheels):

@@ -117,7 +117,7 @@ def standing(name):
     places = body.places(state[: body.coordinates])
     lowest = min(
         (places[link][0] + np.array(place) @ places[link][1:])[2] - radius
-        for link, place, radius in body.table["balls"]
+        for link, place, radius, _ in body.table["balls"]
     )
     state[2] -= lowest
     return body, state

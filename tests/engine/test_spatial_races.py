@@ -202,114 +202,12 @@ def test_alive_is_paid_in_space():
         ("SpatialHumanoidStandup-v0", "urdf='a.urdf'", "no option 'urdf'"),
         ("PlanarHopper-v5", "slope=1", "no option 'slope'"),
         ("CartPole-v1", "slope=1", "takes no options"),
-        ("SpatialBody-v0", "seconds=0.01", "add urdf="),
-        ("SpatialBody-v0", "urdf=3", "no path of a file"),
-        ("SpatialBody-v0", "urdf='no.urdf'", "cannot be read"),
-        ("SpatialBody-v0", "urdf='no.urdf', substep=0.01, seconds=0.001", "above seconds"),
+        ("SpatialBody-v0", "seconds=0.01", "add robot="),
+        ("SpatialBody-v0", "robot=3", "no path of a file"),
+        ("SpatialBody-v0", "robot='no.npz'", "cannot be read"),
+        ("SpatialBody-v0", "urdf='no.npz', substep=0.01, seconds=0.001", "above seconds"),
     ],
 )
 def test_wrong_options_are_said(name, options, says):
     with pytest.raises(BotschoolError, match=says):
         problems.make(name, options=options)
-
-
-# --- Robots of one's own, from URDF files.
-
-LEG = """
-  <link name="{0}_thigh"><collision><origin xyz="0 0 -0.1"/>
-    <geometry><capsule radius="0.02" length="0.2"/></geometry></collision></link>
-  <joint name="{0}_hip" type="revolute"><parent link="base"/><child link="{0}_thigh"/>
-    <origin xyz="{1} {2} 0" rpy="{3} 0 0"/><axis xyz="0 1 0"/>
-    <limit lower="-1" upper="1" effort="20"/><dynamics damping="0.3"/></joint>
-  <link name="{0}_shin"><collision><origin xyz="0 0 -0.1"/>
-    <geometry><cylinder radius="0.02" length="0.2"/></geometry></collision></link>
-  <joint name="{0}_knee" type="continuous"><parent link="{0}_thigh"/><child link="{0}_shin"/>
-    <origin xyz="0 0 -0.2"/><axis xyz="0 2 0"/><limit effort="20"/></joint>
-  <link name="{0}_foot"><collision>
-    <geometry><sphere radius="0.03"/></geometry></collision></link>
-  <joint name="{0}_weld" type="fixed"><parent link="{0}_shin"/><child link="{0}_foot"/>
-    <origin xyz="0 0 -0.2"/></joint>"""
-BASE = """<robot name="own"><link name="base">
-  <inertial><mass value="4"/>
-    <inertia ixx="0.02" iyy="0.05" izz="0.06" ixy="0.001" ixz="0" iyz="0"/></inertial>
-  <collision><geometry><box size="0.4 0.2 0.1"/></geometry></collision></link>"""
-OWN = BASE + "".join(
-    LEG.format(f"{a}{b}", x, y, tilt)
-    for a, x in (("f", 0.2), ("b", -0.2))
-    for b, y, tilt in (("l", 0.1, 0.2), ("r", -0.1, -0.2))
-) + "\n</robot>"  # fmt: skip
-
-
-@pytest.fixture
-def own(tmp_path):
-    (tmp_path / "own.urdf").write_text(OWN)
-    return tmp_path / "own.urdf"
-
-
-def test_a_robot_of_ones_own_moves_as_in_mujoco(own, tmp_path):
-    mujoco = pytest.importorskip("mujoco")
-    free = OWN.replace('<robot name="own">', '<robot name="own"><mujoco><compiler '
-                       'fusestatic="false" balanceinertia="false"/></mujoco>'
-                       '<link name="world"/><joint name="root" type="floating">'
-                       '<parent link="world"/><child link="base"/></joint>')  # fmt: skip
-    (tmp_path / "free.urdf").write_text(free)
-    model = mujoco.MjModel.from_xml_path(str(tmp_path / "free.urdf"))
-    data = mujoco.MjData(model)
-    race = problems.make("SpatialBody-v0", options=f"urdf='{own}'").race
-    body = _core.SpatialBody(race)
-    links = body.table["links"]
-    assert [link["name"] for link in links][:3] == ["base", "fl_hip", "fl_knee"]
-    assert model.nv == body.speeds and body.table["motors"] == 8
-    rng = np.random.default_rng(1)
-    matrix = np.zeros((model.nv, model.nv))
-    for _ in range(50):
-        position = rng.uniform(-1, 1, model.nq)
-        position[3:7] /= np.linalg.norm(position[3:7])
-        data.qpos[:] = position
-        mujoco.mj_forward(model, data)
-        mujoco.mj_fullM(model, matrix, data.qM)
-        found = body.mass_matrix(position) - np.diag([0.0] * 6 + [0.01] * 8)  # armature
-        assert found == pytest.approx(matrix, abs=1e-9)
-
-
-def test_a_robot_of_ones_own_races(own):
-    options = f"urdf='{own}', lowest=0.2, effort=0.01, {ALL}"
-    first = evaluated("SpatialBody-v0", options)
-    assert len(set(first.fitness)) > 20
-    for instruction_set in _core.instruction_sets():
-        other = evaluated("SpatialBody-v0", options, instruction_set, 2)
-        assert other.fitness.tobytes() == first.fitness.tobytes()
-    env = gymnasium.make("botschool/SpatialBody-v0", options=f"urdf='{own}'")
-    seen, _ = env.reset(seed=1)
-    assert seen.shape == env.observation_space.shape == (27,)
-    assert env.action_space.shape == (8,)
-    assert 0.3 < seen[0] < 0.5  # it stands
-    for _ in range(20):
-        seen, *_ = env.step(np.zeros(8))
-    assert seen[0] > 0.1
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "says"),
-    [
-        ("</robot>", "", "no XML file"),
-        ('type="continuous"', 'type="prismatic"', "of type prismatic"),
-        ('<child link="fl_thigh"/>', '<child link="thigh"/>', "that is missing"),
-        ('lower="-1"', 'lower="1"', "not below its upper limit"),
-        ('lower="-1"', 'lower="low"', "1 numbers are needed"),
-        ('<axis xyz="0 2 0"/>', '<axis xyz="0 0 0"/>', "an axis of length 0"),
-        ('<box size="0.4 0.2 0.1"/>', '<mesh filename="a.stl"/>', "has a mesh"),
-        ('<link name="base">', '<link name="lost"/><link name="base">', "2 links without a parent"),
-        ('effort="20"', 'effort="0"', "no joint with a motor"),
-        ("<sphere radius=\"0.03\"/>", '<sphere radius="0.03 1"/>', "1 numbers are needed"),
-        ("collision>", "visual>", None),
-    ],
-)  # fmt: skip
-def test_a_wrong_robot_is_said(own, old, new, says):
-    assert old in OWN
-    own.write_text(OWN.replace(old, new))
-    if says is None:
-        problems.make("SpatialBody-v0", options=f"urdf='{own}'")
-        return
-    with pytest.raises(BotschoolError, match=says):
-        problems.make("SpatialBody-v0", options=f"urdf='{own}'")

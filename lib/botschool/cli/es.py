@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from botschool.cli import cluster_options as across
-from botschool.cli.experiments import experiment_of
+from botschool.cli.experiments import experiment_of, robots_lie_in
 from botschool.errors import BotschoolError
 
 if TYPE_CHECKING:
@@ -119,6 +119,7 @@ def es(
     machines = across.machines(cluster, no_tls, patience, workers)
     workers = workers or 1
     experiment = experiment_of(file)
+    robots_lie_in(experiment.path, output, Path(genotype) if genotype else None)
     if page:
         from botschool.analysis.run_page import write_page
 

@@ -23,3 +23,10 @@ def experiment_of(file: Path) -> Experiment:
     for note in experiment.notes:
         print(f"note: {file}: {note}", file=sys.stderr)
     return experiment
+
+
+def robots_lie_in(experiment: Path | None, folder: Path, genotype: Path | None) -> None:
+    """Let robots of one's own lie beside the experiment file, and their tables beside the run."""
+    from botschool.problems.robot import look_in
+
+    look_in(*filter(None, [experiment and experiment.parent, folder, genotype and genotype.parent]))

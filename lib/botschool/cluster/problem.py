@@ -52,7 +52,10 @@ class Distributed(Problem):
         self._stopped = False
         self._seconds: float | None = None
         """Seconds of an episode on one core."""
-        asked = {"experiment": json.dumps(to_dict(experiment)), "files": files.manifest(inner)}
+        sent = to_dict(experiment)
+        if inner.robot is not None:  # its file is here
+            sent["exp"]["options"] = inner.robot.carried(experiment.exp.options)
+        asked = {"experiment": json.dumps(sent), "files": files.manifest(inner)}
         self._crew = Crew(connection, asked, same, self.native, self._shortest)
         self._here = self._inside = self._outside = self._idle = 0.0
         """Seconds: of batches evaluated here; of workers in, between and at the end of batches."""

@@ -1,6 +1,6 @@
 """Answer the calls of PyBullet that exercise 10 makes, where PyBullet is not installed.
 
-Robots of URDF files move by the equations of bodies in space, as SpatialBalanceBot-v0 does. Names,
+The exercise's robot moves by the equations of bodies in space, as SpatialBalanceBot-v0 does. Names,
 arguments and answers are PyBullet's. Robots do not touch each other, and pictures show the side.
 """
 
@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 
 from botschool import _core
-from botschool.problems.urdf import Urdf
 
 error = type("error", (Exception,), {})
 GUI, DIRECT, VELOCITY_CONTROL, URDF_USE_INERTIA_FROM_FILE = 1, 2, 0, 2
@@ -22,6 +21,17 @@ SERVO, SUBSTEP, FIRM = 1000.0, 0.002, _core.Firmness(friction=0.8)
 """Of motors that follow a speed, N m s/rad; seconds; friction of the wheels."""
 HIGH = 1e3
 """Metres by which a world without ground is lifted."""
+ROBOT = "balance_bot.urdf"
+"""Of this file the tables are: a torso that touches the ground with the four edges of a box, and
+two wheels, which do as balls."""
+LINKS = ("torso", "left_axle", "right_axle")
+ROWS = np.zeros((3, 35))
+ROWS[:, 0], ROWS[1:, 1:4] = (-1, 0, 0), ((-0.12, 0, 0.1), (0.12, 0, 0.1))
+ROWS[1:, 4], ROWS[:, 13], ROWS[1:, 24] = (-1, 1), (-1, 0, 1), SERVO
+ROWS[:, 14], ROWS[0, 17], ROWS[:, 18:21] = (0.8, 0.1, 0.1), 0.3, ((1e-3,), (1e-4,), (1e-4,))
+SHAPES = np.zeros((6, 8))
+SHAPES[:4, 1:4] = [(x, y, 0.3) for x in (-0.1, 0.1) for y in (-0.025, 0.025)]
+SHAPES[:4, 6], SHAPES[4:, 0], SHAPES[4:, 7] = 0.2, (1, 2), 0.1
 
 
 def __getattr__(name: str) -> Any:
@@ -32,13 +42,10 @@ def __getattr__(name: str) -> Any:
 
 
 class Robot:
-    """A robot of a URDF file. The state is that of _core.SpatialBody."""
+    """The exercise's robot. The state is that of _core.SpatialBody."""
 
-    def __init__(self, path: str, given_inertia: bool) -> None:
-        urdf = Urdf(path)
-        rows, self.shapes = urdf.links.copy(), urdf.shapes
-        rows[1:, 9:13] = 0.0  # the action has no torque; no damping, spring and armature
-        rows[1:, 24] = SERVO
+    def __init__(self, given_inertia: bool) -> None:
+        rows, self.shapes = ROWS.copy(), SHAPES
         for i, row in enumerate(() if given_inertia else rows):  # of a box around the shapes
             own = self.shapes[self.shapes[:, 0] == i]
             size = 2 * (np.abs(own[:, 1:4] - own[:, 1:4].mean(0)) + abs(own[:, 4:7]) + own[:, 7:])
@@ -46,8 +53,8 @@ class Robot:
         self.centre, self.joints = rows[0, 15:18], len(rows) - 1
         self._race = _core.Race()
         self._race.declare(
-            urdf.names, rows, self.shapes, FIRM, seconds=0.01, substeps=5, height=0.0, noise=0.0,
-            low=0.0, high=1.0, alive=0.0, effort=0.0,
+            LINKS, rows, self.shapes, [""] * 6, [], [1, 0, 0, 0, 0, 0], FIRM, seconds=0.01,
+            substeps=5, height=0.0, noise=0.0, low=0.0, high=1.0, alive=0.0, effort=0.0,
         )  # fmt: skip
         self.body = _core.SpatialBody(self._race)
         self.state = np.zeros(self.body.size)
@@ -147,7 +154,9 @@ def loadURDF(
     if Path(fileName).name != "plane.urdf":
         if not Path(fileName).is_file():
             raise error("Cannot load URDF file.")
-        robot = Robot(fileName, bool(flags & URDF_USE_INERTIA_FROM_FILE))
+        if Path(fileName).name != ROBOT:
+            raise error(f"what stands in for PyBullet has plane.urdf and {ROBOT} alone.")
+        robot = Robot(bool(flags & URDF_USE_INERTIA_FROM_FILE))
         robot.put(basePosition, baseOrientation)
     bodies.append(robot)
     return len(bodies) - 1

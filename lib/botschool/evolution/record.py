@@ -63,6 +63,11 @@ class RunFiles:
         return self.folder / f"checkpointS{self.seed}.npz"
 
     @property
+    def robot(self) -> Path:
+        """Return the file of the tables of a robot of one's own (problems.robot)."""
+        return self.folder / f"robotS{self.seed}.npz"
+
+    @property
     def events(self) -> Path:
         """Return the folder of the TensorBoard event file."""
         return self.folder / f"tensorboardS{self.seed}"
@@ -85,6 +90,7 @@ class RunFiles:
         return [
             *named,
             self.checkpoint,
+            self.robot,
             self.events,
             self.kept("*"),
             self.populations("*"),

@@ -321,6 +321,8 @@ def evolve(
     if keep_every:
         report = keeping(files, keep_every, report)
     resumed = resume and files.checkpoint.exists()
+    if run.problem.robot is not None:
+        run.problem.robot.keep(files.robot, resumed)
     if resumed:
         checkpoint.resume(files.checkpoint, run)
     limit = run.budget.and_also(steps, generations)

@@ -90,6 +90,8 @@ class Problem(ABC):
     """For two sides without `constant_sum`: whether both get the same return."""
     sides: tuple[str, str] = ("predator", "prey")
     """Names of the individuals of two sides."""
+    robot: Any = None
+    """The robot of one's own (problems.robot.Robot), of which a run keeps the tables."""
 
     @property
     def roles(self) -> str:

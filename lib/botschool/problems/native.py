@@ -102,8 +102,7 @@ class NativeProblem(Problem):
         info = info | (chosen.body or {})
         self.race = chosen.race
         """Choices about a race in space, or None."""
-        self.declared = chosen.body is not None
-        """Whether the race has a body that the user declared."""
+        self.robot = chosen.robot
         self.reward, self.ends = reward, ends
         if reward and self.alive:
             raise BotschoolError(

@@ -8,6 +8,7 @@ from typing import Any
 from botschool import _core
 from botschool.errors import BotschoolError
 from botschool.inifile import nearest
+from botschool.problems import robot as robots
 from botschool.wrappers import keywords
 
 VARY = ("ground", "mass", "motors", "delay", "noise")
@@ -37,9 +38,10 @@ BODY: dict[str, tuple[str, float, float, float]] = {
     "seconds": ("length of a step", 0.02, 0.001, 0.1),
     "substep": ("seconds of a substep", 0.002, 0.0001, 0.01),
     "noise": ("of the start's coordinates and speeds", 0.01, 0, 0.5),
-    "lowest": ("height of the root below which an episode ends", 0.0, -100, 100),
+    "lowest": ("height of the root below which an episode ends", -100.0, -100, 100),
     "highest": ("height of the root above which an episode ends", 100.0, -100, 100),
     "effort": ("price of the sum of squared actions", 0.0, 0, 100),
+    "reach": ("the way of a position servo from its home for an action of 1", 100.0, 0.001, 100),
 }
 
 
@@ -50,7 +52,8 @@ class Options:
     alive: float = 0.0
     race: Any = None
     body: dict | None = None
-    """Of a declared body: what differs from the problem's description in C++."""
+    """Of a robot of one's own: what differs from the problem's description in C++."""
+    robot: robots.Robot | None = None
 
 
 def options_of(name: str, text: str) -> Options:
@@ -66,7 +69,7 @@ def options_of(name: str, text: str) -> Options:
     given = keywords(text)
     known = dict(RANGES) if space else {"alive": RANGES["alive"]}
     known |= BODY if declared else {}
-    words = [*known, "vary", *["urdf"] * declared]
+    words = [*known, "vary", *["robot", "urdf"] * declared]
     for key in given:
         if key not in words:
             raise BotschoolError(
@@ -75,11 +78,11 @@ def options_of(name: str, text: str) -> Options:
     value = {key: _number(key, given.get(key, row[1]), row) for key, row in known.items()}
     ground = [value[key] if space else 0.0 for key in ("slope", "step", "bumps")]
     race = _core.Race(ground, _varied(given))
-    if not declared or "urdf" not in given:
+    if not declared or not given.keys() & {"robot", "urdf"}:
         needless = sorted(given.keys() & BODY.keys())
         if needless:
             raise BotschoolError(
-                f"{needless[0]} is of a robot of your own: add urdf='my_robot.urdf' to the options."
+                f"{needless[0]} is of a robot of your own: add robot='my_robot.xml' to the options."
             )
         return Options(value["alive"], race if given.keys() - {"alive"} else None)
     return _declared(given, value, race)
@@ -111,28 +114,30 @@ def _varied(given: dict) -> list[str]:
 
 
 def _declared(given: dict, value: dict[str, float], race: Any) -> Options:
-    from botschool.problems.urdf import Urdf
-
-    path = given["urdf"]
+    path = given.get("robot", given.get("urdf"))
     if not isinstance(path, str):
-        raise BotschoolError(f"urdf = {path!r} is no path of a file: write urdf='my_robot.urdf'.")
+        raise BotschoolError(
+            f"robot = {path!r} is no path of a file: write robot='my_robot.xml' (MJCF, or .urdf)."
+        )
     if value["substep"] > value["seconds"]:
         raise BotschoolError("substep must not be above seconds.")
-    robot = Urdf(path)
+    robot = robots.read(path, value["reach"])
+    substeps = max(1, round(value["seconds"] / value["substep"]))
     robot.declare(
         race,
         seconds=value["seconds"],
-        substeps=max(1, round(value["seconds"] / value["substep"])),
-        height=robot.height,
+        substeps=substeps,
         noise=value["noise"],
         low=value["lowest"],
         high=value["highest"],
         alive=0.0,
         effort=value["effort"],
     )
+    for sentence in robot.doubts(value["seconds"] / substeps):
+        robots.say(sentence)
     facts = {
-        "observations": 2 * len(robot.links) + 9,
-        "outputs": int(robot.links[:, 13].max()) + 1,
+        "observations": robot.observations,
+        "outputs": robot.motors,
         "seconds": value["seconds"],
     }
-    return Options(value["alive"], race, facts)
+    return Options(value["alive"], race, facts, robot)

@@ -12,8 +12,10 @@ const turned = (axes, own) => axes.reduce((all, axis, i) => sum(all, axis, own[i
 function framesOf(links, numbers) {
   const frames = [];
   links.forEach(([parent, ...own], i) => {
-    const [origin, axis] = [own.slice(0, 3), own.slice(3, 6)];
-    let [w, around] = [Math.cos(numbers[6 + i] / 2), axis.map((a) => a * Math.sin(numbers[6 + i] / 2))];
+    const [slides, axis] = [own[6] ? numbers[6 + i] : 0, own.slice(3, 6)];
+    const origin = sum(own.slice(0, 3), axis, slides);
+    let [w, around] = [1, [0, 0, 0]];
+    if (!own[6]) [w, around] = [Math.cos(numbers[6 + i] / 2), axis.map((a) => a * Math.sin(numbers[6 + i] / 2))];
     if (i === 0) {
       const length = Math.hypot(...numbers.slice(3, 7)) || 1;
       [w, ...around] = numbers.slice(3, 7).map((value) => value / length);

@@ -24,10 +24,11 @@ WHITE, BLACK = np.full(3, 255.0), np.zeros(3)
 class Space:
     """What both painters know of a body and of the camera that follows it, in metres.
 
-    links: of each its parent, its place there, the axis of its hinge. limbs: of each its link, both
-    ends there, radius, colour. height: of what the camera looks at, from `distance`, with the axes
-    right, up and back. memory: steps in about a second, which the camera remembers; seconds: of a
-    step. near, far: from the camera, and from what it looks at, to what is drawn of the ground.
+    links: of each its parent, its place there, its axis, whether it slides along it. limbs: of each
+    its link, both ends there, radius, colour. height: of what the camera looks at, from `distance`,
+    with the axes right, up and back. memory: steps in about a second, which the camera remembers;
+    seconds: of a step. near, far: from the camera, and from what it looks at, to what is drawn of
+    the ground.
     sun: where the light comes from, on so many bands of a limb. shade: opacity of a shadow.
     slope, step: metres that the ground rises with each metre ahead, and at x = 2.
     strokes: two ends each; digits: which of the strokes each has, a bit each.

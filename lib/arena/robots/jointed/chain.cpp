@@ -103,12 +103,12 @@ class RodChain final : public PlanarBody {
   }
 
   template <class T>
-  static void set_drive(Drive<Lanes<T, 1>>* drive, const double* action) {
+  static void set_drive(BOTSCHOOL_ISA::Drive<Lanes<T, 1>>* drive, const double* action) {
     for (int i = 0; i < kRods - 1; ++i) drive[i] = drive_of(Lanes<T, 1>(T(action[i])));
   }
 
   static void assemble(One<double>& chain, const double* action, double gravity) {
-    Drive<Lanes<double, 1>> drive[kRods - 1];
+    BOTSCHOOL_ISA::Drive<Lanes<double, 1>> drive[kRods - 1];
     set_drive(drive, action);
     chain.place(gravity);
     chain.assemble();
@@ -125,7 +125,7 @@ class RodChain final : public PlanarBody {
     }
     for (auto& change : chain.change) change = T(0);
     for (auto& force : chain.load) force = T(0);
-    Drive<Lanes<T, 1>> drive[kRods - 1];
+    BOTSCHOOL_ISA::Drive<Lanes<T, 1>> drive[kRods - 1];
     set_drive(drive, action);
     const Curve ground{around.slope, around.curvature};
     for (int s = 0; s < steps; ++s) chain.step(drive, ground, T(h), around.gravity);

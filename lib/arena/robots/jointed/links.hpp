@@ -109,25 +109,36 @@ template <class T>
 struct Numbers3 {
   struct One {
     int parent, motor, along;  ///< along: the axis is x, y or z, forwards or backwards; else 3
-    bool heavy, limited;
+    bool heavy, limited, driven, slides;
     T sign, place[3], axis[3], centre[3], mass, inertia[6];
-    T low, high, torque, damping, stiffness, armature, servo;
+    T low, high, torque, damping, stiffness, armature, servo, rest, dry;
+    T still, up, down, pull, drag, least, most;  ///< of its drive
   };
   struct Touching {
     int link;
     T place[3], radius;
   };
+  /// Balls that follow each other on a link, and a ball around them.
+  struct Group {
+    int link, first, count;
+    T place[3], radius;
+  };
   struct Meeting {
     int link[2];
     T place[2][3], half[2][3], radius;  ///< radius: of both together
+    T reach, wide;  ///< squared: farther apart are middles, and the links' origins, without touch
   };
-  int links, balls, pairs;
+  int links, balls, groups, pairs;
+  bool fixed, soft;
   One link[kMaxLinks];
   Touching ball[kMaxBalls];
+  Group group[kMaxBalls];
   Meeting pair[kMaxPairs];
 
   void read(const Solid& solid) {
     links = solid.links;
+    fixed = solid.fixed;
+    soft = solid.soft;
     for (int i = 0; i < links; ++i) {
       const Link& from = solid.link[i];
       One& to = link[i];
@@ -155,6 +166,18 @@ struct Numbers3 {
       to.stiffness = T(from.hinge.stiffness);
       to.armature = T(from.hinge.armature);
       to.servo = T(from.hinge.servo);
+      to.rest = T(from.rest);
+      to.dry = T(from.dry);
+      to.slides = from.slides;
+      const Drive& drive = from.drive;
+      to.driven = drive.least < drive.most;
+      to.still = T(drive.still);
+      to.up = T(drive.up);
+      to.down = T(drive.down);
+      to.pull = T(drive.pull);
+      to.drag = T(drive.drag);
+      to.least = T(drive.least);
+      to.most = T(drive.most);
     }
     const Balls from(solid);
     balls = from.count;
@@ -163,6 +186,7 @@ struct Numbers3 {
       copy(ball[c].place, from.ball[c].place);
       ball[c].radius = T(from.ball[c].radius);
     }
+    gather(from);
     pairs = solid.pairs;
     for (int c = 0; c < pairs; ++c) {
       const Shape* both[] = {&solid.shape[solid.pair[c].one], &solid.shape[solid.pair[c].other]};
@@ -171,11 +195,52 @@ struct Numbers3 {
         copy(pair[c].place[k], both[k]->place);
         copy(pair[c].half[k], both[k]->half);
       }
-      pair[c].radius = T(both[0]->radius + both[1]->radius);
+      const double radius = both[0]->radius + both[1]->radius;
+      pair[c].radius = T(radius);
+      const double reach = radius + length(both[0]->half) + length(both[1]->half);
+      const double wide = reach + length(both[0]->place) + length(both[1]->place);
+      // more than rounding moves any of them
+      pair[c].reach = T((1.001 * reach + 1e-3) * (1.001 * reach + 1e-3));
+      pair[c].wide = T((1.001 * wide + 1e-3) * (1.001 * wide + 1e-3));
     }
   }
 
  private:
+  void gather(const Balls& from) {
+    groups = 0;
+    for (int first = 0, next; first < balls; first = next) {
+      next = first + 1;
+      while (next < balls && from.ball[next].link == from.ball[first].link) ++next;
+      Place low = from.ball[first].place, high = low;
+      const auto wider = [](double& least, double& most, double x) {
+        least = x < least ? x : least;
+        most = x > most ? x : most;
+      };
+      for (int c = first; c < next; ++c) {
+        const Place& p = from.ball[c].place;
+        wider(low.x, high.x, p.x);
+        wider(low.y, high.y, p.y);
+        wider(low.z, high.z, p.z);
+      }
+      const Place middle{(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2};
+      double reach = 0;
+      for (int c = first; c < next; ++c) {
+        const Place& p = from.ball[c].place;
+        const double far =
+            length({p.x - middle.x, p.y - middle.y, p.z - middle.z}) + from.ball[c].radius;
+        reach = far > reach ? far : reach;
+      }
+      Group& to = group[groups++];
+      to.link = from.ball[first].link;
+      to.first = first;
+      to.count = next - first;
+      copy(to.place, middle);
+      to.radius = T(1.0001 * reach + 1e-4);  // more than rounding moves any of them
+    }
+  }
+
+  static double length(const Place& p) { return std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z); }
+
   static void copy(T* to, const Place& from) {
     to[0] = T(from.x);
     to[1] = T(from.y);

@@ -23,9 +23,9 @@ struct Rows {
 constexpr int kMaxRows = 2 * kMaxLinks + 11 + 4 * kMaxBalls;
 
 /// Puts W lanes of a state into a body. x and y of its place become 0: the whole way needs double
-/// precision.
+/// precision. held: of each ball whether its rows may differ from 0.
 template <class Body, class F>
-void load_state(Body& body, const Rows& rows, F row) {
+void load_state(Body& body, const Rows& rows, const bool* held, F row) {
   using V = typename Body::V;
   body.place = {V(0), V(0), row(2)};
   for (int k = 0; k < 4; ++k) body.attitude[k] = row(3 + k);
@@ -38,15 +38,17 @@ void load_state(Body& body, const Rows& rows, F row) {
   body.put(0);
   body.speed.turn = body.part[0].turned.times({row(s + 3), row(s + 4), row(s + 5)});
   for (int c = 0; c < rows.balls; ++c) {
+    body.held[c] = held[c];
+    if (!held[c]) continue;
     const int first = rows.stretch() + 3 * c;
     body.stretch[c] = {row(first), row(first + 1), row(first + 2)};
     body.load[c] = row(rows.load() + c);
   }
 }
 
-/// The other way: write(row, lanes).
+/// The other way: write(row, lanes). held: as before.
 template <class Body, class F>
-void store_state(Body& body, const Rows& rows, F write) {
+void store_state(Body& body, const Rows& rows, const bool* held, F write) {
   using V = typename Body::V;
   write(0, body.place.x);
   write(1, body.place.y);
@@ -61,6 +63,11 @@ void store_state(Body& body, const Rows& rows, F write) {
   const V six[] = {body.speed.move.x, body.speed.move.y, body.speed.move.z, spin.x, spin.y, spin.z};
   for (int k = 0; k < 6; ++k) write(rows.speed() + k, six[k]);
   for (int c = 0; c < rows.balls; ++c) {
+    if (!body.held[c]) {
+      for (int k = 0; held[c] && k < 3; ++k) write(rows.stretch() + 3 * c + k, V(0));
+      if (held[c]) write(rows.load() + c, V(0));
+      continue;
+    }
     const V three[] = {body.stretch[c].x, body.stretch[c].y, body.stretch[c].z};
     for (int k = 0; k < 3; ++k) write(rows.stretch() + 3 * c + k, three[k]);
     write(rows.load() + c, body.load[c]);
@@ -80,7 +87,7 @@ struct Racer : ProblemBase {
     const Rows rows{solid.links, Balls(solid).count};
     Info info;
     info.name = name;
-    info.observations = rows.stretch() - 2;
+    info.observations = solid.fixed ? 2 * solid.links - 2 : rows.stretch() - 2;
     info.outputs = solid.motors;
     info.states = rows.count();
     info.limit = 1000;
@@ -98,7 +105,9 @@ struct Racer : ProblemBase {
   void set(const Setting& setting) {
     const SpaceOptions options = setting.space ? *setting.space : SpaceOptions{};
     course = options.course ? options.course : own;
-    rows = {course->solid->links, Balls(*course->solid).count};
+    const Balls balls(*course->solid);
+    rows = {course->solid->links, balls.count};
+    name_contacts(balls);
     moving.read(*course->solid, course->solid->firm);
     ground = options.ground;
     varied.vary = options.vary;
@@ -107,17 +116,28 @@ struct Racer : ProblemBase {
   double state[kMaxRows][L];
   const Course *own, *course;
   Rows rows;
+  bool held[L / kWidth][kMaxBalls] = {};  ///< of each ball whether its rows may differ from 0
+  const char* contact[kMaxLinks];  ///< names of shapes other than those of links, and of each ball
+  int contacts, contact_of[kMaxBalls];  ///< which it has, or -1
   Ground ground;
   double phase[kPhases][L];  ///< of the ground's bumps
   Varied<L> varied;
 
-  /// The coordinates but x and y, and the speeds.
+  /// The coordinates but x and y, and the speeds; of a fixed root none.
   template <class T>
   void observe(T* BOTSCHOOL_RESTRICT out) const {
-    for (int k = 2; k < rows.stretch(); ++k)
+    const bool fixed = course->solid->fixed;
+    for (int k = fixed ? 7 : 2; k < rows.stretch(); ++k) {
+      if (fixed && k == rows.speed()) k += 6;
       for (int l = 0; l < L; ++l)
-        out[(k - 2) * L + l] =
-            static_cast<T>(varied.seen(l, k, state[k][l], k < rows.speed() ? 0.02 : 0.2));
+        *out++ = static_cast<T>(varied.seen(l, k, state[k][l], k < rows.speed() ? 0.02 : 0.2));
+    }
+  }
+
+  /// Somebody wrote the state.
+  void refresh(int) {
+    for (auto& group : held)
+      for (bool& ball : group) ball = true;
   }
 
   void start(int lane, Random& random) {
@@ -127,8 +147,13 @@ struct Racer : ProblemBase {
     for (int k = 0; k < rows.speed(); ++k) state[k][lane] = random.uniform(-noise, noise);
     for (int k = rows.speed(); k < rows.stretch(); ++k)
       state[k][lane] = course->gaussian ? noise * random.gaussian() : random.uniform(-noise, noise);
+    if (solid.fixed)
+      for (int k = 0; k < 7; ++k) state[k][lane] = state[rows.speed() + k % 6][lane] = 0;
     state[2][lane] += course->height;
-    state[3][lane] += 1;
+    if (course->pose)
+      for (int k = 3; k < 6 + rows.links; ++k) state[k][lane] += course->pose[k - 3];
+    else
+      state[3][lane] += 1;
     double square = 0;
     for (int k = 3; k < 7; ++k) square += state[k][lane] * state[k][lane];
     for (int k = 3; k < 7; ++k) state[k][lane] /= std::sqrt(square);
@@ -137,9 +162,20 @@ struct Racer : ProblemBase {
       if (hinge.low < hinge.high)
         state[6 + i][lane] = limited(state[6 + i][lane], hinge.low, hinge.high);
     }
-    state[2][lane] += ground.bumps;
+    state[2][lane] += solid.fixed ? 0 : ground.bumps;
     for (auto& row : phase) row[lane] = random.uniform(-kPi, kPi);
     varied.start(lane, random.key());
+  }
+
+  /// Of the motor of link i for an action.
+  double torque(int i, double action, int lane) const {
+    const Link& link = course->solid->link[i];
+    const Drive& drive = link.drive;
+    if (drive.least >= drive.most) return link.hinge.torque * action;
+    return limited(drive.still + (action > 0 ? drive.up : drive.down) * action -
+                       drive.pull * state[6 + i][lane] -
+                       drive.drag * state[rows.speed() + 5 + i][lane],
+                   drive.least, drive.most);
   }
 
   void quantities(Quantities<L>& q) const {
@@ -176,9 +212,9 @@ struct Racer : ProblemBase {
       const Link& link = solid.link[i];
       q.row({link.name, "_angle"}, "rad", "angle of this joint", state[6 + i]);
       q.row({link.name, "_rate"}, "rad/s", "rate of this joint", state[s + 5 + i]);
-      if (link.motor >= 0 && link.hinge.torque > 0)
-        q.value({link.name, "_torque"}, "N m", "torque that its motor was told to give",
-                [&](int l) { return link.hinge.torque * q.action(link.motor, l); });
+      if (link.motor >= 0 && (link.hinge.torque > 0 || link.drive.least < link.drive.most))
+        q.value({link.name, "_torque"}, "N m", "torque that its motor gives at the end of the step",
+                [&](int l) { return torque(i, q.action(link.motor, l), l); });
     }
     const auto& numbers = moving.numbers;
     for (int i = 0; i < rows.links; ++i) {
@@ -193,12 +229,19 @@ struct Racer : ProblemBase {
                   return sum;
                 });
     }
+    for (int k = 0; k < contacts; ++k)
+      q.value({contact[k], "_force"}, "N", "force of the ground on this shape", [&](int l) {
+        double sum = 0;
+        for (int c = 0; c < rows.balls; ++c)
+          sum += contact_of[c] == k ? state[rows.load() + c][l] : 0;
+        return sum;
+      });
     q.value("power", "W", "of all motors, sizes added", [&](int l) {
       double sum = 0;
       for (int i = 1; i < rows.links; ++i) {
         const Link& link = solid.link[i];
         if (link.motor < 0) continue;
-        const double p = link.hinge.torque * q.action(link.motor, l) * state[s + 5 + i][l];
+        const double p = torque(i, q.action(link.motor, l), l) * state[s + 5 + i][l];
         sum += p < 0 ? -p : p;
       }
       return sum;
@@ -241,10 +284,26 @@ struct Racer : ProblemBase {
   }
 
  protected:
+  void name_contacts(const Balls& balls) {
+    contacts = 0;
+    for (int c = 0; c < balls.count; ++c) {
+      const char* name = balls.ball[c].name;
+      bool known = !*name;
+      for (int i = 0; i < rows.links; ++i) known |= !std::strcmp(name, course->solid->link[i].name);
+      contact_of[c] = -1;
+      for (int k = 0; k < contacts; ++k)
+        if (!std::strcmp(name, contact[k])) contact_of[c] = k;
+      if (known || contact_of[c] >= 0 || contacts == kMaxLinks) continue;
+      contact_of[c] = contacts;
+      contact[contacts++] = name;
+    }
+  }
+
   static V number(double x) { return V(float(x)); }
 
   void load(int first) {
-    load_state(moving, rows, [&](int row) { return V::from(&state[row][first]); });
+    load_state(moving, rows, held[first / kWidth],
+               [&](int row) { return V::from(&state[row][first]); });
     auto& terrain = moving.terrain;
     terrain.ground = ground;
     terrain.x = V::from(&state[0][first]);
@@ -264,7 +323,8 @@ struct Racer : ProblemBase {
   void keep(int first, V real) {
     double kept[kWidth], after[kWidth];
     real.to(kept);
-    store_state(moving, rows, [&](int row, V values) {
+    bool* before = held[first / kWidth];
+    store_state(moving, rows, before, [&](int row, V values) {
       values.to(after);
       for (int l = 0; l < kWidth; ++l) {
         double& old = state[row][first + l];
@@ -272,6 +332,9 @@ struct Racer : ProblemBase {
         old = kept[l] > 0 ? next : old;
       }
     });
+    bool all = true;
+    for (const double& lane : kept) all &= lane > 0;
+    for (int c = 0; c < rows.balls; ++c) before[c] = moving.held[c] || (before[c] && !all);
   }
 
   /// Positive unless a speed is too large or not a number.

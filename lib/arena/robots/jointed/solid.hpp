@@ -2,8 +2,8 @@
 //
 // A body is a tree of links. Each has a frame of its own: its origin lies on the hinge to its
 // parent, and when all hinges are at angle 0 and the root is not turned, all frames have the world's
-// axes. The first link is the root, which moves freely. Links without mass make a joint of several
-// hinges.
+// axes. The first link is the root, which moves freely or is fixed to the world. A link turns about
+// its axis or slides along it. Links without mass make a joint of several hinges.
 #pragma once
 
 #include "table.hpp"
@@ -11,10 +11,16 @@
 namespace botschool {
 
 /// The most that a body has.
-constexpr int kMaxLinks = 32, kMaxBalls = 48, kMaxPairs = 16;
+constexpr int kMaxLinks = 64, kMaxBalls = 256, kMaxPairs = 64;
 
 struct Place {
   double x, y, z;
+};
+
+/// A motor that follows a target: at angle q and speed u its torque is
+/// still + up a (down a for a < 0) - pull q - drag u, within least to most.
+struct Drive {
+  double still = 0, up = 0, down = 0, pull = 0, drag = 0, least = 0, most = 0;
 };
 
 struct Link {
@@ -27,6 +33,9 @@ struct Link {
   double mass;
   Place centre;       ///< of mass
   double inertia[6];  ///< about it: xx, yy, zz, xy, xz, yz
+  Drive drive = {};
+  double rest = 0, dry = 0;  ///< angle at which its spring rests; torque of dry friction
+  bool slides = false;
 };
 
 /// A capsule on a link: its middle, half of its axis, its radius. A ball has no axis.
@@ -34,6 +43,7 @@ struct Shape {
   int link;
   Place place, half;
   double radius;
+  const char* name = "";
 };
 
 /// Numbers of two shapes that touch each other.
@@ -58,23 +68,26 @@ struct Solid {
   int links, shapes, pairs, motors;
   double margin;  ///< added to the radius of what touches the ground
   Firmness firm;
+  bool fixed = false;  ///< whether the root stays where it is
+  bool soft = false;   ///< whether limits of hinges answer as MuJoCo's do
 };
 
 /// The reward of a body in space, and the ends of its episode.
 struct Course {
   const Solid* solid;
-  double seconds;       ///< of a step
-  int substeps;         ///< in a step
-  double height;        ///< of the root's origin at the start
-  double noise;         ///< start: coordinates are uniform within +-noise of the rest
-  bool gaussian;        ///< whether speeds are Gaussian, with sd noise, or uniform, too
-  double low, high;     ///< height of the root, beyond which an episode ends
-  double range = 1;     ///< largest action
-  double ahead = 1;     ///< paid for each m/s
-  bool centre = false;  ///< of the centre of mass, or of the root
-  double alive = 0;     ///< paid for each step without a fall
-  double effort = 0;    ///< price of the sum of squared actions
-  double lift = 0;      ///< paid for each metre of height
+  double seconds;                ///< of a step
+  int substeps;                  ///< in a step
+  double height;                 ///< of the root's origin at the start
+  double noise;                  ///< start: coordinates are uniform within +-noise of the rest
+  bool gaussian;                 ///< whether speeds are Gaussian, with sd noise, or uniform, too
+  double low, high;              ///< height of the root, beyond which an episode ends
+  double range = 1;              ///< largest action
+  double ahead = 1;              ///< paid for each m/s
+  bool centre = false;           ///< of the centre of mass, or of the root
+  double alive = 0;              ///< paid for each step without a fall
+  double effort = 0;             ///< price of the sum of squared actions
+  double lift = 0;               ///< paid for each metre of height
+  const double* pose = nullptr;  ///< start: quaternion and angles; null: not turned, all at 0
 };
 
 #ifdef __wasm__  // the core of a page, whose races have no options
@@ -110,11 +123,13 @@ struct Ball {
   int link;
   Place place;
   double radius;
+  const char* name;
 };
 
 /// The balls of a body, less those inside others.
 struct Balls {
   int count = 0;
+  bool full = false;  ///< whether there are more
   Ball ball[kMaxBalls];
 
   explicit Balls(const Solid& solid) {
@@ -123,8 +138,8 @@ struct Balls {
       const Place &p = shape.place, &h = shape.half;
       const double radius = shape.radius + solid.margin;
       const bool wheel = square(h) == 0;
-      add(solid, {shape.link, {p.x - h.x, p.y - h.y, p.z - h.z}, radius}, wheel);
-      add(solid, {shape.link, {p.x + h.x, p.y + h.y, p.z + h.z}, radius}, wheel);
+      add(solid, {shape.link, {p.x - h.x, p.y - h.y, p.z - h.z}, radius, shape.name}, wheel);
+      add(solid, {shape.link, {p.x + h.x, p.y + h.y, p.z + h.z}, radius, shape.name}, wheel);
     }
   }
 
@@ -149,7 +164,10 @@ struct Balls {
     for (int i = 0; i < count; ++i)
       if (!inside(ball[i], next)) ball[kept++] = ball[i];
     count = kept;
-    if (count < kMaxBalls) ball[count++] = next;
+    if (count < kMaxBalls)
+      ball[count++] = next;
+    else
+      full = true;
   }
 };
 

@@ -38,6 +38,7 @@ struct Space {
   V angle[kMaxLinks], rate[kMaxLinks];  ///< of each link's hinge; the root's are not used
   Vec stretch[kMaxBalls];               ///< how far the ground holds a ball back along itself
   V load[kMaxBalls];                    ///< the ground's force across itself in the last substep, N
+  bool held[kMaxBalls];                 ///< whether both may differ from 0 in some lane
 
   Screw<V> change;  ///< of the speeds in the last substep, halved
   V rate_change[kMaxLinks];
@@ -60,11 +61,11 @@ struct Space {
 
   /// What is computed of a ball on the ground.
   struct Contact {
-    bool touches;
     V push, answer;
     Vec normal, at;
   };
   Contact contact[kMaxBalls];
+  int touching[kMaxBalls], touches;  ///< numbers of the balls that are on the ground in some lane
 
   static BOTSCHOOL_INLINE Vec vector(const T* p) { return {V(p[0]), V(p[1]), V(p[2])}; }
   static BOTSCHOOL_INLINE Vec none() { return {V(T(0)), V(T(0)), V(T(0))}; }
@@ -111,6 +112,12 @@ struct Space {
     const auto& link = numbers.link[i];
     const Part& up = part[link.parent];
     p.origin = up.origin + up.turned.times(vector(link.place));
+    if (link.slides) {
+      p.axis = {none(), up.turned.times(vector(link.axis))};
+      p.origin = p.origin + angle[i] * p.axis.move;
+      p.turned = up.turned;
+      return;
+    }
     V sine, cosine;
     sine_cosine(angle[i], sine, cosine);
     if (link.along < 3) {
@@ -171,7 +178,12 @@ struct Space {
     touch(h);
     for (int c = 0; c < numbers.pairs; ++c) meet(numbers.pair[c], h);
     for (int i = numbers.links - 1; i > 0; --i) fold(i, action, h);
-    part[0].acceleration = part[0].inertia.solve(part[0].force);
+    if (numbers.fixed) {
+      part[0].acceleration = {none(), none()};
+    } else {
+      burden(h);
+      part[0].acceleration = part[0].inertia.solve(part[0].force);
+    }
     const T half = h * T(0.5);
     for (int i = 1; i < numbers.links; ++i) {
       unfold(i);
@@ -261,57 +273,93 @@ struct Space {
     p.force.turn.y -= g * h.x;
   }
 
-  /// Forces of the ground on all balls. The ground pushes with a spring and a damper, and holds a ball
-  /// back along itself by another pair, by no more than Coulomb's friction for the push of the substep
-  /// before, or for what the push at least is now.
+  /// What a motor of the root itself would turn and move with it, and a damper on its motion.
+  BOTSCHOOL_INLINE void burden(T h) {
+    const auto& root = numbers.link[0];
+    if (root.armature == 0 && root.damping == 0) return;
+    Part& p = part[0];
+    const V drag = lightness * V(root.damping), armature = lightness * V(root.armature);
+    const V extra = armature + V(h * T(0.5)) * drag;
+    for (V* entry : {&p.inertia.turning.xx, &p.inertia.turning.yy, &p.inertia.turning.zz,
+                     &p.inertia.moving.xx, &p.inertia.moving.yy, &p.inertia.moving.zz})
+      *entry += extra;
+    p.force.turn = p.force.turn + drag * speed.turn;
+    p.force.move =
+        p.force.move + drag * speed.move + armature * cross(p.middle.turn, p.middle.move);
+  }
+
+  /// Forces of the ground on all balls.
   void touch(T h) {
-    const V zero(T(0));
-    for (int c = 0; c < numbers.balls; ++c) {
-      const auto& ball = numbers.ball[c];
-      Part& p = part[ball.link];
-      Contact& touched = contact[c];
-      const Vec centre = p.origin + p.turned.times(vector(ball.place));
-      const V radius(ball.radius);
-      const Piece3<V> below = terrain.under(place.x + centre.x, place.y + centre.y);
-      const V depth = radius - (place.z + centre.z - below.height) * below.normal.z;
-      touched.touches = any_positive(depth);
-      if (!touched.touches) {
-        stretch[c] = none();
-        load[c] = zero;
-        continue;
+    const bool flat = terrain.flat();
+    touches = 0;
+    for (int g = 0; g < numbers.groups; ++g) {
+      const auto& group = numbers.group[g];
+      const Part& p = part[group.link];
+      const bool above = flat && group.count > 2 &&
+                         !any_positive(V(group.radius) - (place.z + height(p, group.place)));
+      for (int c = group.first; c < group.first + group.count; ++c) {
+        if (above || !touch(c, flat, h))
+          held[c] = false;
+        else
+          touching[touches++] = c;
       }
-      const Vec& normal = below.normal;
-      const Vec r = centre - radius * normal;
-      const Vec sliding = p.now.move + cross(p.now.turn, r);
-      // its change within the substep by the turning of the body alone
-      const Vec turning = V(h) * cross(p.now.turn, p.now.move + cross(p.now.turn, centre));
-      const V across = dot(normal, sliding), more = dot(normal, turning);
-      const Vec along = sliding - across * normal;
-      const V on = smaller(depth, stiffness * depth - damping * across);
-      const V firm = if_positive(on, V(h) * stiffness + damping, zero);
-      const V push = if_positive(on, stiffness * depth, zero) - firm * (across + more);
-      const Vec held = stretch[c] + V(h) * along;
-      const Vec drag = stiffness * held + firm * (along + (turning - more * normal));
-      const V force_now = larger(load[c], smaller(stiffness * depth, push));
-      const V most = if_positive(on, friction * force_now, zero);
-      const V share = most / larger(larger(square_root(dot(drag, drag)), most), V(T(1e-9)));
-      stretch[c] = share * held;
-      const Vec force = push * normal - share * drag;
-      p.force.move = p.force.move - force;
-      p.force.turn = p.force.turn - cross(r, force);
-      p.inertia.resist(r, normal, V(h) * firm, V(h) * share * firm);
-      touched.push = push;
-      touched.answer = V(h) * firm;
-      touched.normal = normal;
-      touched.at = r;
     }
+  }
+
+  /// z of a point of a link, from the root's origin: the sums are those of the whole vector.
+  static BOTSCHOOL_INLINE V height(const Part& p, const T* own) {
+    const Vec* column = p.turned.column;
+    return p.origin.z +
+           (V(own[0]) * column[0].z + V(own[1]) * column[1].z + V(own[2]) * column[2].z);
+  }
+
+  /// Forces of the ground on a ball; returns whether it touches in any lane. The ground pushes with a
+  /// spring and a damper, and holds a ball back along itself by another pair, by no more than
+  /// Coulomb's friction for the push of the substep before, or for what the push at least is now.
+  BOTSCHOOL_INLINE bool touch(int c, bool flat, T h) {
+    const V zero(T(0));
+    const auto& ball = numbers.ball[c];
+    Part& p = part[ball.link];
+    const V radius(ball.radius);
+    if (flat && !any_positive(radius - (place.z + height(p, ball.place)))) return false;
+    const Vec centre = p.origin + p.turned.times(vector(ball.place));
+    const Piece3<V> below = terrain.under(place.x + centre.x, place.y + centre.y);
+    const V depth = radius - (place.z + centre.z - below.height) * below.normal.z;
+    if (!any_positive(depth)) return false;
+    if (!held[c]) {
+      held[c] = true;
+      stretch[c] = none();
+      load[c] = zero;
+    }
+    const Vec& normal = below.normal;
+    const Vec r = centre - radius * normal;
+    const Vec sliding = p.now.move + cross(p.now.turn, r);
+    // its change within the substep by the turning of the body alone
+    const Vec turning = V(h) * cross(p.now.turn, p.now.move + cross(p.now.turn, centre));
+    const V across = dot(normal, sliding), more = dot(normal, turning);
+    const Vec along = sliding - across * normal;
+    const V on = smaller(depth, stiffness * depth - damping * across);
+    const V firm = if_positive(on, V(h) * stiffness + damping, zero);
+    const V push = if_positive(on, stiffness * depth, zero) - firm * (across + more);
+    const Vec stretched = stretch[c] + V(h) * along;
+    const Vec drag = stiffness * stretched + firm * (along + (turning - more * normal));
+    const V force_now = larger(load[c], smaller(stiffness * depth, push));
+    const V most = if_positive(on, friction * force_now, zero);
+    const V share = most / larger(larger(square_root(dot(drag, drag)), most), V(T(1e-9)));
+    stretch[c] = share * stretched;
+    const Vec force = push * normal - share * drag;
+    p.force.move = p.force.move - force;
+    p.force.turn = p.force.turn - cross(r, force);
+    p.inertia.resist(r, normal, V(h) * firm, V(h) * share * firm);
+    contact[c] = {push, V(h) * firm, normal, r};
+    return true;
   }
 
   /// How much the ground has pushed each ball, by the accelerations.
   void weigh_balls() {
-    for (int c = 0; c < numbers.balls; ++c) {
+    for (int k = 0; k < touches; ++k) {
+      const int c = touching[k];
       const Contact& touched = contact[c];
-      if (!touched.touches) continue;
       const Screw<V>& a = part[numbers.ball[c].link].acceleration;
       const V across = dot(touched.normal, a.move + cross(a.turn, touched.at));
       load[c] = larger(touched.push - touched.answer * across, V(T(0)));
@@ -323,14 +371,16 @@ struct Space {
     const V zero(T(0)), one(T(1));
     Part* p[2];
     Vec middle[2], half[2];
-    for (int k = 0; k < 2; ++k) {
-      p[k] = &part[pair.link[k]];
+    for (int k = 0; k < 2; ++k) p[k] = &part[pair.link[k]];
+    const Vec links = p[0]->origin - p[1]->origin;
+    if (!any_positive(V(pair.wide) - dot(links, links))) return;
+    for (int k = 0; k < 2; ++k)
       middle[k] = p[k]->origin + p[k]->turned.times(vector(pair.place[k]));
-      half[k] = p[k]->turned.times(vector(pair.half[k]));
-    }
+    const Vec apart = middle[0] - middle[1];
+    if (!any_positive(V(pair.reach) - dot(apart, apart))) return;
+    for (int k = 0; k < 2; ++k) half[k] = p[k]->turned.times(vector(pair.half[k]));
     const auto within = [&](V t) { return smaller(larger(t, -one), one); };
     const V tiny(T(1e-6));
-    const Vec apart = middle[0] - middle[1];
     const V a = dot(half[0], half[0]) + tiny, b = dot(half[0], half[1]),
             e = dot(half[1], half[1]) + tiny;
     const V c = dot(half[0], apart), f = dot(half[1], apart);
@@ -360,14 +410,19 @@ struct Space {
     const auto& link = numbers.link[i];
     Part &p = part[i], &up = part[link.parent];
     const V zero(T(0));
-    V torque = -(V(link.stiffness) * angle[i] + V(link.damping) * rate[i]);
+    V torque = -(V(link.stiffness) * (angle[i] - V(link.rest)) + V(link.damping) * rate[i]);
     V extra(link.armature + link.damping * h * T(0.5));
     if (link.motor >= 0) torque += V(link.torque) * strength * action[link.motor];
     if (link.servo > 0) {
       torque += V(link.servo) * (action[link.motor] - rate[i]);
       extra += V(h * link.servo);
     }
-    if (link.limited) {
+    if (link.dry > 0) {  // a damper that has this torque at any speed but the slowest
+      const V firm = V(link.dry) / larger(larger(rate[i], -rate[i]), V(T(0.01)));
+      torque -= firm * rate[i];
+      extra += V(h) * firm;
+    }
+    if (link.limited && !numbers.soft) {
       const V way = V(h) * rate[i];
       const V above = angle[i] - V(link.high), below = angle[i] - V(link.low);
       const V beyond = larger(above, zero) + smaller(below, zero);
@@ -382,12 +437,43 @@ struct Space {
     torque = lightness * torque;
     extra = lightness * extra;
     p.answer = p.inertia.times(p.axis);
-    p.inverse = V(T(1)) / (dot(p.axis, p.answer) + extra);
+    V inertia = dot(p.axis, p.answer) + extra;
+    if (link.driven) drive(i, action[link.motor], h, inertia, torque);
+    if (link.limited && numbers.soft) yield(i, h, inertia, torque);
+    p.inverse = V(T(1)) / inertia;
     p.pull = torque - dot(p.axis, p.force);
     p.inertia.reduce(p.answer, p.inverse);
     const Screw<V> force = p.inertia.times(p.carried) + (p.pull * p.inverse) * p.answer;
     up.force = up.force + p.force + force;
     up.inertia.add(p.inertia);
+  }
+
+  /// Adds the torque of a drive, and what it answers to the change of the speed unless its torque
+  /// is at an end of its range even after that answer.
+  BOTSCHOOL_INLINE void drive(int i, V action, T h, V& inertia, V& torque) {
+    const auto& link = numbers.link[i];
+    const V zero(T(0)), target = if_positive(action, V(link.up), V(link.down)) * action;
+    const V wanted = V(link.still) + target - V(link.pull) * angle[i] - V(link.drag) * rate[i];
+    const V factor = lightness * strength;
+    const V answer = factor * V(h * link.drag + T(0.25) * h * h * link.pull);
+    const V after = wanted * (inertia / (inertia + answer));
+    const V within = smaller(V(link.most) - after, after - V(link.least));
+    torque +=
+        factor * if_positive(within, wanted, smaller(larger(after, V(link.least)), V(link.most)));
+    inertia += if_positive(within, answer, zero);
+  }
+
+  /// Lets a hinge's limit answer as MuJoCo's: beyond it the hinge's acceleration is, to a share of
+  /// 0.95, that of a critically damped spring.
+  BOTSCHOOL_INLINE void yield(int i, T h, V& inertia, V& torque) {
+    const auto& link = numbers.link[i];
+    const V zero(T(0));
+    const V beyond = larger(angle[i] - V(link.high), zero) + smaller(angle[i] - V(link.low), zero);
+    const T share = T(0.95), seconds = T(0.02) > 2 * h ? T(0.02) : 2 * h;
+    const V back = V(1 / (share * seconds * seconds)) * beyond + V(2 / (share * seconds)) * rate[i];
+    const V firm = if_positive(back * beyond, V(share / (1 - share)) * inertia, zero);
+    torque -= firm * back;
+    inertia += firm;
   }
 
   /// Acceleration of link i, after its parent's.

@@ -17,6 +17,16 @@ constexpr Shape kBoxShapes[]{{0, {0.2, 0.1, 0}, {0, 0, 0.05}, 0},
                              {0, {-0.2, -0.1, 0}, {0, 0, 0.05}, 0}};
 constexpr Solid kBox{"box", kBoxLinks, kBoxShapes, nullptr, 1, 4, 0, 0, 0, {}};
 
+/// For states of which nothing is known.
+struct AllHeld {
+  bool held[kMaxBalls];
+  constexpr AllHeld() : held() {
+    for (bool& ball : held) ball = true;
+  }
+};
+constexpr AllHeld kAllHeld;
+constexpr const bool* kAll = kAllHeld.held;
+
 class Looked final : public SpatialBody {
  public:
   explicit Looked(const Solid& solid) : solid_(solid), rows_{solid.links, Balls(solid).count} {}
@@ -76,7 +86,10 @@ class Looked final : public SpatialBody {
     body->gravity = gravity;
     body->place.z = 1e6;  // in the air, and no parts touch each other
     body->numbers.pairs = 0;
-    for (int i = 1; i < solid_.links; ++i) body->numbers.link[i].limited = false;
+    for (int i = 1; i < solid_.links; ++i) {
+      body->numbers.link[i].limited = false;
+      body->numbers.link[i].dry = 0;
+    }
     const auto before = body->speed;
     body->kick(motor, 0);
     // the change of the speeds in no time is none: what it is for each second
@@ -103,7 +116,7 @@ class Looked final : public SpatialBody {
   std::unique_ptr<Space<double, 1>> loaded(const double* position, const double* speed) const {
     auto body = std::make_unique<Space<double, 1>>();
     body->read(solid_, solid_.firm);
-    load_state(*body, rows_, [&](int row) {
+    load_state(*body, rows_, kAll, [&](int row) {
       if (row < rows_.speed()) return One(position[row]);
       return One(speed && row < rows_.stretch() ? speed[row - rows_.speed()] : 0.0);
     });
@@ -123,11 +136,11 @@ class Looked final : public SpatialBody {
     terrain.x = T(state[0]);
     terrain.y = T(state[1]);
     for (auto& phase : terrain.phase) phase = T(0);
-    load_state(*body, rows_, [&](int row) { return V(T(state[row])); });
+    load_state(*body, rows_, kAll, [&](int row) { return V(T(state[row])); });
     V motor[kMaxLinks];
     for (int i = 0; i < solid_.motors; ++i) motor[i] = T(action[i]);
     body->run(motor, steps, T(h));
-    store_state(*body, rows_,
+    store_state(*body, rows_, kAll,
                 [&](int row, V value) { state[row] = value[0] + (row < 2 ? state[row] : 0.0); });
   }
 

@@ -44,8 +44,9 @@ def scene_of(problem: Any) -> Scene | None:
     """Return the scene of a problem's steps; None if they bring their own pictures."""
     if not problem.native or drawn_by_gymnasium(problem):
         return None
-    if problem.declared:
-        return SpatialScene(problem.race, 1 / problem.fps, 0.0).stand_on(problem.race.ground)
+    if problem.robot is not None:
+        scene = SpatialScene(problem.race, 1 / problem.fps, 0.0, looks=problem.robot.looks)
+        return scene.stand_on(problem.race.ground)
     scene = make_scene(problem.dynamics, problem.robots, problem.plan)
     if problem.race and isinstance(scene, SpatialScene):
         scene.stand_on(problem.race.ground)

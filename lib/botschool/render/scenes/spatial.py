@@ -26,12 +26,19 @@ class SpatialScene(Scene):
     """In metres at the distance of the robot; (0, 0) is what the camera looks at."""
 
     def __init__(
-        self, body: Any, seconds: float, height: float, robots: tuple = (), states: int = 0
+        self,
+        body: Any,
+        seconds: float,
+        height: float,
+        robots: tuple = (),
+        states: int = 0,
+        looks: Any = None,
     ) -> None:
         """Make the picture; body: of `_core.SpatialBody`; height: where the camera looks.
 
         At height 0 it looks at the middle of the body, from as near as the body is small.
-        states: of the problem, 0 if it has those of its body only.
+        states: of the problem, 0 if it has those of its body only. looks: what is drawn, of each
+        bar its link, ends and radius; None: the body's shapes.
         """
         super().__init__()
         self._body = _core.SpatialBody(body)
@@ -46,8 +53,11 @@ class SpatialScene(Scene):
         self.charted = (("ground", tuple(range(self._coordinates, self.count))),)
         self.memory = round(self.fps)
         self.space = Space(
-            links=tuple((link["parent"], *link["place"], *link["axis"]) for link in table["links"]),
-            limbs=tuple(_limbs(self._body)),
+            links=tuple(
+                (link["parent"], *link["place"], *link["axis"], int(link["slides"]))
+                for link in table["links"]
+            ),
+            limbs=tuple(_limbs(self._body) if looks is None else _bars(self._body, looks)),
             height=height,
             memory=self.memory,
             seconds=seconds,
@@ -95,7 +105,7 @@ class SpatialScene(Scene):
 
 def _limbs(body: Any) -> Iterator[tuple]:
     """Yield each shape: link, one end, the other end, radius, colour."""
-    shapes = list(_rounded(body.table["shapes"]))
+    shapes = body.table["shapes"]
     places = body.places(np.eye(body.coordinates)[3])
     balls = {(link, *np.round(place, 9)) for link, place, half, _ in shapes if not np.any(half)}
     for link, place, half, radius in shapes:
@@ -108,20 +118,14 @@ def _limbs(body: Any) -> Iterator[tuple]:
         yield (link, *ends[0].tolist(), *ends[1].tolist(), radius, colour)
 
 
-def _rounded(shapes: list[tuple]) -> Iterator[tuple]:
-    """Yield the shapes, with a capsule in place of the four edges of a box."""
-    edges: list[np.ndarray] = []
-    for link, place, half, radius in shapes:
-        if radius:
-            yield link, place, half, radius
-            continue
-        edges += [np.add(place, half), np.subtract(place, half)]
-        if len(edges) == 8:
-            middle = np.mean(edges, axis=0)
-            _, _, axes = np.linalg.svd(edges - middle)
-            long, *wide = np.abs((edges - middle) @ axes.T).max(axis=0)
-            yield link, middle, axes[0] * max(long - np.mean(wide), 0.0), float(np.mean(wide))
-            edges = []
+def _bars(body: Any, looks: Any) -> Iterator[tuple]:
+    """Yield each bar of a robot of one's own: link, one end, the other end, radius, colour."""
+    places = body.places(np.eye(body.coordinates)[3])
+    for link, *ends, radius in looks:
+        middle = np.add(ends[:3], ends[3:]) / 2
+        left = (places[int(link), 0] + middle @ places[int(link), 1:])[1]
+        colour = "pole" if abs(left) < 0.03 else "short pole" if left > 0 else "axle"
+        yield int(link), *map(float, ends), float(radius), colour
 
 
 for _name, _body, _height in (
