@@ -35,8 +35,8 @@ MOODLE = re.compile(
     r"(?P<key>(?P<name>.+?)_\d+)_assignsubmission_(?P<kind>[a-z]+)(?:_(?P<rest>.*))?", re.DOTALL
 )
 CANVAS = re.compile(
-    r"(?P<key>(?P<name>.+?)_(?P<late>LATE_)?(?:\d+|(?<=anon_)[^\W_]{5}|(?<=anonymous_)[^\W_]{5})"
-    r"_\d+)_(?P<rest>(?!assignsubmission_).+)",
+    r"(?P<key>(?P<name>.+?)_(?P<late>LATE_)?(?:\d+|(?<=anon_)[^\W_]{5}|(?<=anonymous_)[^\W_]{5}))"
+    r"_\d+_(?P<rest>(?!assignsubmission_).+)",
     re.DOTALL,
 )
 ATTEMPT = re.compile(
