@@ -88,8 +88,17 @@ def _value(found: dict[str, list[str]], lab: Lab) -> str:
     (usual, where), *others = sorted(found.items(), key=lambda each: -len(each[1]))
     everywhere = sum(map(len, found.values())) == len(lab.conditions)
     if everywhere and len(where) > len(lab.conditions) / 2:
-        return "; ".join([usual, *(f"{value} in {', '.join(names)}" for value, names in others)])
-    return "; ".join(f"{value} ({', '.join(names)})" for value, names in found.items())
+        return "; ".join([usual, *(f"{value} in {_together(n, lab)}" for value, n in others)])
+    return "; ".join(f"{value} ({_together(names, lab)})" for value, names in found.items())
+
+
+def _together(names: list[str], lab: Lab) -> str:
+    """Return names of conditions; of those that share their first word, if all are there, it."""
+    said: list[str] = []
+    for word in dict.fromkeys(name.split()[0] for name in names):
+        group = [c.name for c in lab.conditions if c.name.split()[0] == word]
+        said += [word] if {*group} <= {*names} else [name for name in group if name in names]
+    return ", ".join(said)
 
 
 def skeletons(lab: Lab) -> dict[str, str]:
