@@ -1,5 +1,4 @@
-"""What makes runs fast does not show in their files: a post-evaluation that waits for the next
-generation's candidates, and runs side by side."""
+"""What stops runs, and runs side by side, do not show in their files."""
 
 import os
 import signal
@@ -10,11 +9,8 @@ import numpy as np
 import psutil
 import pytest
 
-from botschool.errors import BotschoolError
-from botschool.evolution.progress import messages
 from botschool.evolution.run import Run, evolve
 from running import (
-    ALGORITHMS,
     call,
     contents,
     experiment,
@@ -25,134 +21,19 @@ from running import (
     write_experiment,
 )
 
-POLICY = ({"normalize": 0}, {"normalize": 1, "clip": 1, "pepisodes": 2})
-each = pytest.mark.parametrize("policy", POLICY, ids=("plain", "normalised"))
-algorithms = pytest.mark.parametrize("algo", ALGORITHMS)
 
-
-def evolved(own, folder, together=True, limit=None, resume=False, **more):
-    """Evolves seed 1 and gives the run."""
-    folder.mkdir(parents=True, exist_ok=True)
-    run = Run(own, 1)
-    run.together = together
-    evolve(run, folder, generations=limit, resume=resume, **more)
-    return run
-
-
-def calls(run):
-    """Counts the calls of a run's problem, in a list of one number."""
-    count, evaluate = [0], run.problem.evaluate
-
-    def counting(*arguments):
-        count[0] += 1
-        return evaluate(*arguments)
-
-    run.problem.evaluate = counting
-    return count
-
-
-# post-evaluations that wait
-
-
-@each
-@algorithms
-def test_together_is_as_apart(algo, policy, tmp_path):
-    own = experiment(tmp_path, "CartPole-v1", algo, policy, maxmsteps=0.02)
-    lines = {True: [], False: []}
-    for together in lines:
-        with messages(False, lines[together].extend) as report:
-            evolved(own, tmp_path / str(together), together, report=report)
-    assert same(tmp_path / "True", tmp_path / "False")
-    assert lines[True] == lines[False]
-    assert len(lines[True]) == len(np.load(tmp_path / "True" / "statS1.npy")) / 6 > 5
-
-
-@each
-def test_most_generations_take_one_evaluation(policy, tmp_path):
-    """Else the tests above would compare equal with equal."""
-    own = experiment(tmp_path, "CartPole-v1", "SSS", policy, maxmsteps=0.02)
-    run = Run(own, 1)
-    count = calls(run)
-    evolve(run, tmp_path)
-    generations = run.record.generation
-    # of normalised runs, those that collect nothing wait: 1 % of 12 episodes in each
-    assert generations < count[0] < 1.3 * generations
-
-
-def test_generations_that_are_saved_one_by_one_do_not_wait(tmp_path):
-    own = experiment(tmp_path, saveeach=0)
-    run = Run(own, 1)
-    count = calls(run)
-    evolve(run, tmp_path)
-    assert count[0] == 2 * run.record.generation + 1  # fresh episodes at the end
-
-
-@pytest.mark.slow
-@each
-@algorithms
-def test_stops_after_every_generation_do_not_show(algo, policy, tmp_path):
-    own = experiment(tmp_path, "CartPole-v1", algo, policy, maxmsteps=0.01)
-    whole = evolved(own, tmp_path / "whole", together=False).record.generation
-    for generation in range(1, whole + 2):
-        run = evolved(own, tmp_path / "parts", limit=generation, resume=True)
-        assert run.record.generation == min(generation, whole)
-    assert same(tmp_path / "whole", tmp_path / "parts")
-
-
-@pytest.mark.slow
-@each
+@pytest.mark.parametrize("policy", [{"normalize": 0}, {"normalize": 1, "pepisodes": 2}])
 def test_requests_to_stop_at_any_moment_do_not_show(policy, tmp_path):
-    own = experiment(tmp_path, "CartPole-v1", "OpenAI-ES", policy, maxmsteps=0.005)
-    evolved(own, tmp_path / "whole", together=False)
-    for moment in range(20):
-        asked = 0
-
-        def stopping(moment=moment):
-            nonlocal asked
-            asked += 1
-            return asked > moment
-
-        folder = tmp_path / str(moment)
-        folder.mkdir()
-        run = Run(own, 1, stopping=stopping)
-        evolve(run, folder)
-        assert np.load(folder / "statS1.npy").size == 6 * run.record.generation
-        evolved(own, folder, resume=True)
-        assert same(tmp_path / "whole", folder)
-
-
-@each
-@pytest.mark.parametrize("broken", range(2, 9))
-def test_an_evaluation_that_fails_leaves_the_generations_before(policy, broken, tmp_path):
-    """Once, or whatever is evaluated from then on."""
-    own = experiment(tmp_path, "CartPole-v1", "OpenAI-ES", policy, maxmsteps=0.01)
-    evolved(own, tmp_path / "whole", together=False)
-    for once in (True, False):
-        folder = tmp_path / str(once)
-        folder.mkdir()
-        run = Run(own, 1)
-        evaluate, count = run.problem.evaluate, 0
-
-        def failing(*arguments, evaluate=evaluate, once=once):
-            nonlocal count
-            count += 1
-            if count == broken or (count > broken and not once):
-                raise BotschoolError("It is broken.")
-            return evaluate(*arguments)
-
-        run.problem.evaluate = failing
-        with pytest.raises(BotschoolError, match="broken"):
-            evolve(run, folder)
-        assert np.load(folder / "statS1.npy").size == 6 * run.record.generation
-        evolved(own, folder, resume=True)
-        assert same(tmp_path / "whole", folder)
-
-
-def test_a_generation_asked_for_by_itself_is_whole(tmp_path):
-    run = Run(experiment(tmp_path), 1)
-    for generation in range(1, 4):
-        run.advance()
-        assert run.record.generation == generation
+    own = experiment(tmp_path, "CartPole-v1", "OpenAI-ES", policy, maxmsteps=0.003)
+    assert run_seeds(own, tmp_path / "whole")
+    for moment in range(12):
+        asked = iter(range(moment))
+        run = Run(own, 1, stopping=lambda asked=asked: next(asked, None) is None)
+        evolve(run, tmp_path / str(moment))
+        stat = np.load(tmp_path / str(moment) / "statS1.npy")
+        assert stat.size == 6 * run.record.generation
+        assert run_seeds(own, tmp_path / str(moment), resume=True)
+        assert same(tmp_path / "whole", tmp_path / str(moment))
 
 
 # runs side by side

@@ -100,7 +100,7 @@ class Coevolution(Run):
                 "meet: set normalize = 0."
             )
 
-    def advance(self, goes_on: bool = False) -> None:
+    def advance(self) -> None:
         """Run one generation, or what the algorithm does before the first one.
 
         Raises Interrupted on request; a generation that fails is dropped.

@@ -76,7 +76,6 @@ class Evaluator:
             self.normalisation = np.repeat([0.0, 1.0], policy.spec.inputs)
         # arrays that are the same in every generation, by the number of candidates
         self._alone: dict[int, tuple[np.ndarray, np.ndarray]] = {}
-        self._behind: dict[int, tuple[np.ndarray, np.ndarray]] = {}
         self._post_episodes = Episodes.of([seed + POST_EVALUATION_SEED], policy.config.pepisodes)
         self._owed = self._owed_next = 0.0
         self._collected: list[tuple[float, np.ndarray, np.ndarray]] = []
@@ -84,38 +83,6 @@ class Evaluator:
     def measure(self, candidates: np.ndarray, seeds: np.ndarray) -> Measured:
         """Start a generation: mean return of every candidate over `episodes` episodes."""
         return self._measured(self._run(candidates, self._of(seeds)))
-
-    def measure_both(
-        self, candidates: np.ndarray, seeds: np.ndarray, genotype: np.ndarray
-    ) -> tuple[Measured, Measured]:
-        """Return measure(candidates, seeds) and a post_evaluate(genotype) that collects no data.
-
-        One evaluation does both: the post-evaluation uses the lanes that the candidates leave free.
-        """
-        own, post = self._of(seeds), self._post_episodes
-        if len(seeds) not in self._behind:
-            row = post.candidate + np.int32(len(seeds))
-            self._behind[len(seeds)] = (
-                np.concatenate([own.candidate, row]),
-                np.concatenate([own.episode, post.episode]),
-            )
-        candidate, episode = self._behind[len(seeds)]
-        collect = own.collect
-        if collect is not None:
-            collect = np.concatenate([collect, np.zeros(len(post), np.uint8)])
-        both = Episodes(candidate, np.concatenate([own.seed, post.seed]), episode, collect)
-        outcome = self._run(self.problem.rows(candidates, genotype[None]), both)
-        n = len(own)
-        return (
-            self._measured(
-                Outcome(
-                    outcome.fitness[:n],
-                    outcome.steps[:n],
-                    None if outcome.moments is None else outcome.moments[:n],
-                )
-            ),
-            Measured(outcome.fitness[n:], int(outcome.steps[n:].sum())),
-        )
 
     def _of(self, seeds: np.ndarray) -> Episodes:
         """Return Episodes.of(seeds, episodes); each generation computes only the seeds anew."""
@@ -146,12 +113,6 @@ class Evaluator:
         return np.add.reduce(each, axis=1) / episodes
 
     @property
-    def post_steps(self) -> int:
-        """Return the largest number of steps that a post-evaluation can take."""
-        longest = self.problem.steps(self.policy.config.post_steps)
-        return self.policy.config.pepisodes * longest
-
-    @property
     def collects(self) -> int:
         """Return how many episodes of the generation's post-evaluation collect normalisation data:
         the first ones, while the share collected so far is below 1 % of the evaluation episodes.
@@ -160,7 +121,7 @@ class Evaluator:
             return 0
         return min(math.ceil(self._owed_next - 1e-9), self.policy.config.pepisodes)
 
-    def post_evaluate(self, genotype: np.ndarray, stoppable: bool = True) -> Measured:
+    def post_evaluate(self, genotype: np.ndarray) -> Measured:
         """Return the genotype's return in each of `pepisodes` fixed episodes; shape (pepisodes,).
 
         The first `collects` episodes also collect normalisation data.
@@ -171,7 +132,7 @@ class Evaluator:
             collect = (np.arange(len(episodes)) < collecting).astype(np.uint8)
             episodes = replace(episodes, collect=collect)
         longest = self.policy.config.post_steps
-        outcome = self._run(genotype[None], episodes, stoppable, longest)
+        outcome = self._run(genotype[None], episodes, longest)
         robots = self.problem.interface.robots
         self._collected = [
             (float(robots * outcome.steps[i]), sums, squares)
@@ -215,7 +176,6 @@ class Evaluator:
         self,
         genotypes: np.ndarray,
         episodes: Episodes,
-        stoppable: bool = True,
         maxsteps: int | None = None,
     ) -> Outcome:
         return self.problem.evaluate(
@@ -225,7 +185,7 @@ class Evaluator:
             episodes,
             maxsteps or self.policy.config.maxsteps,
             self._workers,
-            self._stopping if stoppable else lambda: False,
+            self._stopping,
         )
 
     def state(self) -> dict[str, np.ndarray]:

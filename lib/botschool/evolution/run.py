@@ -19,7 +19,7 @@ from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.evolution import checkpoint, fresh
 from botschool.evolution.algorithm import ALGORITHMS
-from botschool.evolution.evaluate import Evaluator, Measured, mean
+from botschool.evolution.evaluate import Evaluator, mean
 from botschool.evolution.events import Events
 from botschool.evolution.limit import Limit
 from botschool.evolution.record import Record, RunFiles
@@ -29,22 +29,6 @@ from botschool.problems.base import say, say_unrepeatable
 from botschool.terminal import readable
 
 EVENT_SECONDS = 10
-WAITING_STEPS = 1_000_000
-"""A post-evaluation with more steps never waits, because stopping a run has to finish it."""
-
-
-@dataclass
-class Unsettled:
-    """A generation that lacks only the post-evaluation of its best candidate."""
-
-    saved: np.ndarray
-    """The best candidate, in the form in which it is saved."""
-    best: float
-    average: float
-    steps: int
-    parameter: float
-    before: dict[str, dict[str, np.ndarray]]
-    """State of the algorithm and the evaluator before the generation, by name."""
 
 
 class Run:
@@ -62,10 +46,6 @@ class Run:
     """Seconds that the last save took."""
     progress = 0.0
     """Share of the present generation that is done."""
-    together = True
-    """Whether a post-evaluation may run together with the next generation's candidates. The files
-    are the same without it, but it takes longer.
-    """
     algorithm: Any
     record: Any
     fresh: np.ndarray | None = None
@@ -96,7 +76,6 @@ class Run:
         if self.policy.unreached:
             say(self.policy.unreached)
         self.report: Callable[[Run], None] = lambda run: None
-        self._open: Unsettled | None = None
         self.begin()
 
     def initial(self) -> np.ndarray:
@@ -170,82 +149,19 @@ class Run:
             )
         return self.result(files) if self.record.generation else ""
 
-    def advance(self, goes_on: bool = False) -> None:
-        """Run one generation. Raises Interrupted on request; a generation that fails is dropped.
-
-        goes_on: whether the next call is `advance` or `settle`, so that the generation's
-        post-evaluation and its entry in the record may wait for that call.
-        """
+    def advance(self) -> None:
+        """Run one generation. Raises Interrupted on request; a generation that fails is dropped."""
         candidates, seeds = self.algorithm.ask()
-        if self._open is None:
-            measured = self.evaluator.measure(candidates, seeds)
-        else:
-            last = self._best_of(self._open)
-            measured, post = self.evaluator.measure_both(candidates, seeds, last)
-            self._close(post)
-
+        measured = self.evaluator.measure(candidates, seeds)
         best = int(measured.fitness.argmax())
         saved = self.policy.join(np.asarray(candidates[best]), self.evaluator.normalisation)
-        waits = goes_on and self._may_wait(measured.steps)
-        before = {}
-        if waits:
-            before = {owner: getattr(self, owner).state() for owner in ("algorithm", "evaluator")}
-        else:
-            post = self.evaluator.post_evaluate(candidates[best])
+        post = self.evaluator.post_evaluate(candidates[best])
         self.algorithm.tell(*measured.told())
         self.evaluator.refresh()
-        self._open = Unsettled(
-            saved,
-            float(measured.fitness[best]),
-            mean(measured.fitness),
-            measured.steps,
-            self.algorithm.average_parameter(),
-            before,
-        )
-        if not waits:
-            self._close(post)
-
-    def _may_wait(self, steps: int) -> bool:
-        """Return whether the post-evaluation of a generation with this many steps may run together
-        with the next generation's candidates: they do not depend on it, and they are certain to be
-        evaluated.
-        """
-        most = self.evaluator.post_steps
-        return (
-            self.together
-            and self.problem.native
-            and self.policy.config.post_steps == self.policy.config.maxsteps
-            and self.evaluator.collects == 0
-            and most <= WAITING_STEPS
-            and self.record.steps + steps + most < self.limit.steps
-            and self.record.generation + 1 < self.limit.generations
-        )
-
-    def settle(self) -> None:
-        """Post-evaluate the newest generation if that has waited, which completes the record.
-
-        If it fails, the generation is dropped.
-        """
-        if self._open is None:
-            return
-        try:
-            post = self.evaluator.post_evaluate(self._best_of(self._open), stoppable=False)
-        except BaseException:
-            for owner, state in self._open.before.items():
-                getattr(self, owner).restore(state)
-            self._open = None
-            raise
-        self._close(post)
-
-    def _best_of(self, generation: Unsettled) -> np.ndarray:
-        return generation.saved[: self.policy.genotype_size]
-
-    def _close(self, post: Measured) -> None:
-        """Enter the open generation into the record; post: its best candidate's post-evaluation."""
-        done, self._open = self._open, None
-        self.record.steps += done.steps + post.steps
-        self.record.offer(done.saved, done.best, mean(post.fitness))
-        self.record.add(done.best, done.average, done.parameter)
+        fitness = float(measured.fitness[best])
+        self.record.steps += measured.steps + post.steps
+        self.record.offer(saved, fitness, mean(post.fitness))
+        self.record.add(fitness, mean(measured.fitness), self.algorithm.average_parameter())
         self.report(self)
 
     def state(self) -> dict:
@@ -340,7 +256,6 @@ def evolve(
 
     def save(ended: bool = False) -> None:
         began = time.monotonic()
-        run.settle()
         checkpoint.save(files.checkpoint, run.experiment, run.seed, run.state())
         run.write(files, ended)
         log()
@@ -356,7 +271,7 @@ def evolve(
         while not limit.reached(run):
             if run.stopping():
                 raise Interrupted
-            run.advance(goes_on=True)
+            run.advance()
             now = time.monotonic()
             if run.due(now - saved):
                 save()
@@ -371,8 +286,6 @@ def evolve(
         save(ended=True)
         return False
     except Exception as error:
-        with suppress(BotschoolError):
-            run.settle()
         try:
             save(ended=True)
         except BotschoolError as unsaved:
