@@ -175,15 +175,3 @@ def test_what_cannot_be_stepped(array, index, value, words):
     if array != "action":
         refused(own.sense, *words)
     assert own.steps == 0
-
-
-def test_robots_inside_each_other_and_steps_after_the_end():
-    own = arena.make("predprey", max_steps=1)
-    own.robots[1] = 1100, 1500, 0
-    refused(own.step, "Robot 0", "another robot")
-    own.reset()
-    own.step()
-    assert own.done and not own.terminated
-    own.action[:] = 0.1
-    own.step()  # moves on, but the episode stays over
-    assert own.done and own.steps == 2 and own.robots[0, 0] > 1000

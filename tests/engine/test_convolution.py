@@ -103,27 +103,6 @@ def test_sums_have_the_order_of_the_row():
     assert shuffled + float(parts["filters0 bias"][4]) != features[-1]  # so the order tells
 
 
-@pytest.mark.parametrize("bias", [0, 1])
-def test_the_genotype_begins_with_the_convolutional_layers(bias):
-    network = Network(spec_of(bias=bias, afunction=3, out_type=3, nhiddens=0, outputs=1))
-    count = 3 * 2 * 9 + 2 * 3 * 4 + 2 * 2 * 1 + bias * (3 + 2 + 1)
-    assert len(network.parameters) == count
-    network.observation[:] = np.arange(2 * 7 * 6)
-    if bias:  # of the first layer's filters, then their weights
-        network.parameters[:3] = 1, 10, 100
-        second = 3 + 3 * 2 * 9
-        network.parameters[second + 2 + 4] = 1  # of the second layer's first filter: 10, upper left
-        network.parameters[second] = 0.5
-        network.step()
-        assert network.activations.tolist() == [10.5, 10.5, 0, 0, 0]
-    else:
-        network.parameters[9] = 1  # first filter, second channel, upper left
-        network.parameters[3 * 2 * 9 + 3] = 1  # first filter, lower right of the first filter's
-        network.step()
-        below = [42 + 12 + 2, 42 + 24 + 2]  # rows 2 and 4, column 2
-        assert network.activations.tolist() == [*below, 0, 0, 0]
-
-
 @pytest.mark.parametrize(
     ("changes", "words"),
     [

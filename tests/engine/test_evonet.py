@@ -324,10 +324,3 @@ def test_network_normalises_with_the_vectors_in_use():
     plain.observation = [3, -4]
     plain.step()
     assert plain.activations[:2].tolist() == [3, -4]
-
-
-@pytest.mark.parametrize("values", [[0, 0], [0, 0, 1, 0], [0, 0, 1, -1], [np.nan, 0, 1, 1], "abcd"])
-def test_network_refuses_bad_normalisation(values):
-    network = Network(NetworkSpec(inputs=2, outputs=1, normalize=1))
-    with pytest.raises((ValueError, TypeError), match="normalisation"):
-        network.normalisation = values

@@ -236,20 +236,6 @@ def test_a_contact_is_a_spring_with_a_damper_that_is_whole_from_a_millimetre_on(
     assert body.load.sum() == pytest.approx(body.load[touching].sum())
 
 
-def test_a_box_rests():
-    box = Moving("box", height=0.06)
-    box.advance(0.001, 2000)
-    lying = box.q.copy()
-    assert np.abs(box.v).max() < 1e-6
-    box.advance(0.001, 2000)
-    assert box.q == pytest.approx(lying, abs=1e-6)
-    weight = box.masses[0, 0] * G
-    assert box.load.sum() == pytest.approx(weight, rel=1e-3)
-    assert box.load[:2] == pytest.approx(weight / 2, rel=1e-3)
-    # its corners sink in as far as their springs say
-    assert 0.05 - box.q[1] == pytest.approx(weight / 2 / 30000, rel=1e-3)
-
-
 @pytest.mark.parametrize("share", [0.5, 0.9, 1.1, 2.0])
 def test_a_box_slides_from_its_friction_angle_on(share):
     """On a plane whose slope is `share` of the friction coefficient, 0.5."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import cmath
-import math
 
 import numpy as np
 import pytest
@@ -90,30 +89,6 @@ def test_who_is_blocked_stays_and_how_often():
     share = 0.01 * 0.95 / (0.01 * 0.95 + 0.05)
     assert held / steps == pytest.approx(share, abs=0.04)  # episodes begin with both free
     assert onsets / (steps - held) == pytest.approx(0.01 * 0.95, rel=0.2)
-
-
-@pytest.mark.parametrize(
-    ("start", "reward"),
-    [
-        (((1000, 1500, 0), (1500, 1500, 0)), 0.01),
-        (((1000, 1500, 0), (1599.9, 1500, 0)), 0.01),
-        (((1000, 1500, 0), (1600.1, 1500, 0)), 0),  # too far
-        (((1000, 1500, 0), (1340.1, 1500, 0)), 0.01),
-        (((1000, 1500, 0), (1339.9, 1500, 0)), 0),  # too near
-        (((1000, 1500, 0.78), (1500, 1500, 0.78)), 0.01),
-        (((1000, 1500, 0.79), (1500, 1500, 0.79)), 0),  # not ahead
-        (((1000, 1500, -0.78 % (2 * math.pi)), (1500, 1500, 0)), 0.01),
-        (((1000, 1500, 0), (1500, 1500, 0.78)), 0.01),
-        (((1000, 1500, 0), (1500, 1500, 0.79)), 0),  # not the same way
-        (((1500, 1500, 0), (1000, 1500, 0)), 0),  # the first one is ahead
-        (((1000, 1500, 6.2), (1500, 1500, 0.1)), 0.01),  # headings near 0 and 2 pi
-    ],
-)
-def test_what_is_rewarded(start, reward):
-    own = arena.make("staybehind")
-    own.robots = start
-    own.action = [-1, 0, -1, 0]  # nobody moves
-    assert own.step() == reward
 
 
 # --- ErStaybehind written a second time from its description in docs/specification.md,

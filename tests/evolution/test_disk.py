@@ -8,7 +8,6 @@ import sys
 import numpy as np
 import pytest
 
-from botschool import config
 from botschool.errors import BotschoolError
 from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.record import RunFiles
@@ -139,15 +138,6 @@ def test_a_folder_without_permission(mode, says, own, tmp_path):
     assert not list(folder.iterdir())
 
 
-def test_a_folder_that_is_a_file(own, tmp_path):
-    (tmp_path / "results").write_text("precious")
-    for folder in (tmp_path / "results", tmp_path / "results" / "deeper"):
-        for flag in ("--force", "--resume"):
-            code, _, errors = call("es", "-f", tmp_path / "own.ini", "-o", folder, flag)
-            one_sentence(code, errors, [folder, "cannot be written", "another folder"])
-    assert (tmp_path / "results").read_text() == "precious"
-
-
 # the functions beneath
 
 
@@ -208,16 +198,3 @@ def test_a_removed_folder_is_made_again(what, saveeach, keep_every, tmp_path, ca
     assert again == {name: content for name, content in whole.items() if name not in lost}
     assert events(folder).stat().st_size == events(tmp_path / "whole" / "run").stat().st_size
     assert capfd.readouterr().err.count("run was removed: it is made again") == (what != "events")
-
-
-def test_two_populations_outlive_their_folder(tmp_path):
-    path = tmp_path / "own.ini"
-    path.write_text(
-        "[EXP]\nenvironment = ErPredprey\nalgo = archive\n[POLICY]\nnrobots = 2\n"
-        "heterogeneous = 1\nmaxsteps = 20\nnhiddens = 2\n"
-        "[ALGO]\nsamplesize = 2\nncompetitors = 2\nsaveeach = 3\n"
-    )
-    whole = evolved(config.load(path), tmp_path / "whole")
-    again = evolved(config.load(path), tmp_path / "again", shutil.rmtree)
-    lost = {f"S1{fit}G{g}.npy" for fit in ("", "Fit") for g in (0, 3)}
-    assert again == {name: content for name, content in whole.items() if name not in lost}

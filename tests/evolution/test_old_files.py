@@ -93,8 +93,6 @@ FILES = {
 }
 """The original's fourteen, and two files of classic control in the same style."""
 QUICK = ("cartpole", "acrobot", "pendulum", "mountaincar", "swingup", "discrim", "dpole")
-SLOW = ("bodybrain", "humanoid")
-"""Whose first generation alone takes half a minute."""
 BULLET = ("hopper", "halfcheetah", "ant", "walker", "humanoid")
 NEEDED = dict.fromkeys(BULLET, "pybullet_envs_gymnasium")
 NEEDED |= {"balancebot": "balance_bot", "bodybrain": "Box2D"}
@@ -142,13 +140,6 @@ def test_it_starts_and_goes_on_for_ten_generations(name, tmp_path, command):
     assert generations(tmp_path) == 2
     start(name, tmp_path, command, "--generations", 12, "--resume")
     assert generations(tmp_path) == 12
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", sorted(set(FILES) - {*QUICK, *SLOW}))
-def test_a_longer_one_starts(name, tmp_path, command):
-    start(name, tmp_path, command, "--steps", 1)
-    assert (tmp_path / "run" / "S11.fit").exists()
 
 
 # --- --keep-every: the best of earlier generations stay (docs/specification.md, "Run files").
@@ -206,10 +197,3 @@ def test_a_normalised_robot_is_kept_with_its_vectors(tmp_path, command):
     np.testing.assert_array_equal(first[-8:], [0] * 4 + [1] * 4)
     code, out, _ = command("es", "-f", ini, "-s", 5, "-p", "-g", folder / "bestgS5G3.npy")
     assert code == 0 and "episode 3" in out
-
-
-def test_force_removes_them(ini, tmp_path, command):
-    folder = run_of(command, ini, tmp_path / "kept")
-    (folder / "bestgS51G3.npy").write_text("of another run")
-    assert command("es", "-f", ini, "-s", 5, "-o", folder, "--force")[0] == 0
-    assert [path.name for path in folder.glob("bestgS*G*.npy")] == ["bestgS51G3.npy"]

@@ -120,12 +120,6 @@ def test_without_a_run_of_your_own_the_one_of_the_course_takes_part(command, tmp
     assert code == 0 and "generation 40: fitness" in said and "comes with" not in note
 
 
-def test_two_runs_meet(es, results):
-    code, said, _ = es("c-S12G0.npy-S12G40.npy")
-    assert code == 0
-    assert "A is " in said and "predators of B minus those of A" in said
-
-
 @pytest.mark.parametrize(
     ("text", "says"),
     [

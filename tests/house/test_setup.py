@@ -33,7 +33,6 @@ case "$*" in
     *) echo 3.13 ;;
 esac
 """
-PIP = "--no-input --disable-pip-version-check -c constraints.txt"
 
 
 @pytest.fixture
@@ -99,18 +98,6 @@ def test_an_exercise_without_wheels_says_how_to_get_them(setup):
     code, _, errors, _, stamps = setup("extra", "box2d", WITHOUT="box2d")
     assert code == 2 and not stamps
     assert errors.startswith("error: No wheels for Python 3.13") and "exercise 5" in errors
-
-
-@pytest.mark.skipif(not shutil.which("sh"), reason="needs a shell")
-def test_after_an_interruption_the_environment_is_mended(setup, tmp_path):
-    """It is not made anew: what is in it stays."""
-    (tmp_path / "tools").symlink_to(ROOT / "tools")
-    (tmp_path / ".venv" / ".made").write_text("3.13\n")
-    (tmp_path / ".venv" / ".installing-abc").touch()
-    code, out, errors, calls, stamps = setup("venv")
-    assert (code, errors) == (0, "") and "interrupted" in out
-    assert calls == [f"-m pip install {PIP} --no-deps 3.13"] and stamps == [".made"]
-    assert setup("venv")[1] == ""
 
 
 # --- `make demo`: its commands, with fewer steps, make what it says it has made.

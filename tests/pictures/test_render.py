@@ -52,23 +52,6 @@ def test_every_native_problem_is_drawn_from_its_state(name):
     assert (drawn.draw(state, np.array([0.5])) == frame).all()
 
 
-@pytest.mark.parametrize("name", ["Pendulum-v1", "envSwingupCustom", "ErDpole"])
-def test_the_action_is_seen(name):
-    drawn = scenes.make_scene(name)
-    left, none, right = (drawn.draw(np.array(STATES[name]), a) for a in ([-0.9], None, 0.9))
-    assert (left != none).any() and (right != none).any() and (left != right).any()
-
-
-def test_numbers_that_cannot_be_drawn():
-    drawn = scenes.make_scene("CartPole-v1")
-    with pytest.raises(BotschoolError, match="not finite"):
-        drawn.draw(np.array([np.nan, 0.0, 0.0, 0.0]))
-    with pytest.raises(ValueError, match="shape"):
-        drawn.draw(np.zeros(3))
-    far = scenes.make_scene("ErDpole").draw(np.array([1e30, 0, 1e6, 0, -1e6, 0]), [np.nan])
-    assert far.shape == (400, 600, 3)
-
-
 HEADLESS = """
 import os
 from botschool.errors import BotschoolError

@@ -83,18 +83,6 @@ def test_no_text_ends_the_data_and_nothing_comes_from_elsewhere(tmp_path):
     assert re.findall(r"(?:https?:)?//[a-z]", path.read_text("utf-8")) == []
 
 
-def test_a_trail_shows_where_the_robot_was_and_ends_with_its_episode():
-    scene = make_scene("ErDiscrim")
-    transitions = list(circling("ErDiscrim", 12))
-    for transition in transitions:
-        followed = scene.draw_transition(transition)
-    last = transitions[-1]
-    alone = scene.draw(last.state, last.action, last.observation, last.reward)
-    assert (followed != alone).any(axis=2).sum() > 300
-    fresh = make_scene("ErDiscrim").draw_transition(transitions[-1])
-    assert (alone == fresh).all()
-
-
 # The command
 
 

@@ -11,10 +11,9 @@ from botschool.errors import BotschoolError
 from botschool.rl import settings, tuning
 from botschool.rl.agent import Agent
 from botschool.rl.folder import RunFolder
-from botschool.rl.model import choose
 from botschool.rl.study import Log, ended, open_study
 from botschool.rl.training import train
-from botschool.rl.tuning import SPACES, Plan, tune
+from botschool.rl.tuning import Plan, tune
 from running import TESTS
 
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("by_sb3")]
@@ -191,18 +190,3 @@ def test_what_cannot_be_tuned(tmp_path, refused):
     (tmp_path / "list.yaml").write_text("- 1\n")
     refused(*train, "--settings", tmp_path / "list.yaml", says="holds no hyperparameters")
     assert not (tmp_path / "new").exists()
-
-
-ENVIRONMENTS = {"her": "tiny_envs:Goal-v0", **dict.fromkeys(("dqn", "qrdqn"), "CartPole-v1")}
-
-
-@pytest.mark.parametrize("algo", settings.ALGORITHMS)
-def test_what_is_tried_are_hyperparameters_of_the_algorithm(algo):
-    env = ENVIRONMENTS.get(algo, "tiny_envs:Tiny-v0")
-    for pick in (0, -1):
-        given = {
-            name: values.low if isinstance(values, Log) else yaml.safe_load(str(values[pick]))
-            for name, values in SPACES[algo].items()
-        }
-        chosen = choose(algo, env, params=given)
-        assert chosen.parameters.items() >= given.items()

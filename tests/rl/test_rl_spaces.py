@@ -148,13 +148,6 @@ def test_a_learner_reads_the_observations(name, tmp_path):
     assert trained(f"Sees-{name.replace(' ', '')}-v0", tmp_path).returns == [8.0, 8.0]
 
 
-def test_a_film_of_what_does_not_draw_is_refused(tmp_path):
-    """Neither the constructor nor the metadata knows pictures."""
-    player = trained("Unpainted-v0", tmp_path)
-    with pytest.raises(BotschoolError, match=r"draws no pictures .*--render none"):
-        next(player.transitions(0))
-
-
 @pytest.mark.parametrize("space", [*OBSERVATIONS.values(), *ACTIONS.values()])
 def test_plain_spaces_hold_what_is_translated(space):
     space.seed(1)

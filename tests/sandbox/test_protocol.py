@@ -113,17 +113,6 @@ def test_receiving_is_bounded():
     os.close(reading)
 
 
-def test_sending_is_bounded():
-    reading, writing = os.pipe()
-    os.set_blocking(writing, False)
-    with pytest.raises(TimeoutError):
-        protocol.send(writing, b"x" * 2**20, 0.1)
-    os.close(reading)
-    with pytest.raises(BrokenPipeError):
-        protocol.send(writing, b"x", 1)
-    os.close(writing)
-
-
 @pytest.mark.slow
 def test_too_many_arrays():
     with pytest.raises(protocol.NotPlain, match="arrays, which are too many"):

@@ -11,7 +11,6 @@ import pytest
 
 import botschool.sandbox
 from botschool.sandbox import Allowance, Child, ForkServer, Limits, SandboxError, Scratch, usage
-from botschool.sandbox.exceptions import nearest
 
 
 @pytest.mark.slow
@@ -96,33 +95,6 @@ def test_nothing_else_of_botschool_is_loaded():
 
 
 # --- What a child tells of exceptions, and where it is when its time is up.
-
-
-@pytest.mark.parametrize(
-    ("name", "names", "found"),
-    [
-        ("rank", ["ranks", "tank"], "ranks"),
-        ("next_population", ["NextPopulation", "next_popul"], "NextPopulation"),
-        ("evolve", ["evolve_population", "x"], "evolve_population"),
-        ("rank", ["train", "evolve"], None),
-        ("rank", ["rank"], None),
-        ("x" * 100, ["x" * 99], None),
-    ],
-)
-def test_nearest(name, names, found):
-    assert nearest(name, names) == found
-
-
-def test_places(sandboxed):
-    one = sandboxed("def f():\n    return g()\ndef g():\n    return [][1]\ndef h(a): pass\n")
-    assert one.ask("f") == {
-        "error": "IndexError", "text": "list index out of range", "file": "untrusted.py",
-        "line": 4, "column": None, "near": None, "call": None,
-        "process": False,
-    }  # fmt: skip
-    assert one.ask("ff")["error"] == "Missing"
-    told = one.ask("h")
-    assert (told["error"], told["call"]) == ("Signature", "h(a)")
 
 
 # --- The time of answers: computing and sleeping are charged, waiting for a processor is not.
