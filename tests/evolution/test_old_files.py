@@ -93,15 +93,10 @@ FILES = {
 }
 """The original's fourteen, and two files of classic control in the same style."""
 QUICK = ("cartpole", "acrobot", "pendulum", "mountaincar", "swingup", "discrim", "dpole")
-BULLET = ("hopper", "halfcheetah", "ant", "walker", "humanoid")
-NEEDED = dict.fromkeys(BULLET, "pybullet_envs_gymnasium")
-NEEDED |= {"balancebot": "balance_bot", "bodybrain": "Box2D"}
 
 
 def start(name, folder, command, *limits):
     """Runs the command on the file, in a folder that holds it alone."""
-    if name in NEEDED:
-        pytest.importorskip(NEEDED[name])
     path = folder / f"{name}.ini"
     path.write_bytes(FILES[name].encode())
     code, out, errors = command("es", "-f", path, "-s", 11, "-o", folder / "run", *limits)
