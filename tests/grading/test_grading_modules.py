@@ -36,6 +36,7 @@ def test_what_a_solution_and_a_graders_drivers_import_may_be_used():
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [2, 8, 12])
 def test_each_module_is_open_or_closed(number):
     opened = needed(load_exercise(number).tasks[0].refused.may_use)
@@ -62,6 +63,7 @@ WAYS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", WAYS)
 def test_other_modules_do_not_exist(server, tmp_path, way):
     file = tmp_path / "own" / "tiny.py"

@@ -44,6 +44,7 @@ def test_a_definition_that_fails_takes_the_name_from_one_above_and_a_value_does_
     assert names["A"] == 1 and [name for name, *_ in names[LEFT_OUT]] == ["f"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cells", [False, True])
 def test_the_user_of_what_is_left_out_fails_with_its_line(server, tmp_path, tiny, cells):
     text = f"@profile\ndef two(): return 2\n\n\ndef double(x):\n    return two() * x\n\n\n{TOTAL}"
@@ -136,6 +137,7 @@ def test_a_fault_in_every_python_is_told_by_what_python_says(text):
 # --- a file that a notebook runs
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("line", ["%run helpers.py", "%run helpers", "%run -i ./helpers.py"])
 def test_a_notebook_runs_a_file_beside_it(server, tmp_path, tiny, line):
     file = submit(tmp_path, "")
@@ -144,6 +146,7 @@ def test_a_notebook_runs_a_file_beside_it(server, tmp_path, tiny, line):
         assert [submission.grade(task).points for task in tiny.tasks] == [60, 40]
 
 
+@pytest.mark.slow
 def test_a_run_that_cannot_be_followed_is_named(server, tmp_path, tiny):
     file = submit(tmp_path, "")
     with Submission(file, server, ["%run helpers.ipynb", TOTAL], FILE, exercise=tiny) as submission:
@@ -151,6 +154,7 @@ def test_a_run_that_cannot_be_followed_is_named(server, tmp_path, tiny):
     assert "%run helpers.ipynb" in said and "This line is left out" in said
 
 
+@pytest.mark.slow
 def test_a_function_that_is_defined_twice_is_named(server, tmp_path, tiny):
     twice = "def double(x):\n    raise NotImplementedError\n"
     file = submit(tmp_path, f"{USED}{twice}\n\n{TOTAL}")
@@ -161,6 +165,7 @@ def test_a_function_that_is_defined_twice_is_named(server, tmp_path, tiny):
     )
 
 
+@pytest.mark.slow
 def test_what_is_printed_names_the_students_own_lines(server, tmp_path, tiny):
     text = (
         f"import warnings\n\n\ndef double(x):\n    warnings.warn('overflow')\n    return 0\n{TOTAL}"

@@ -15,6 +15,7 @@ from tiny_course import make_course
 NUMBERS = exercise_numbers(course_root())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("secret", ["robotics26", "x", "exactly 15 long"])
 def test_a_secret_that_can_be_guessed_is_refused(tmp_path, monkeypatch, refused, secret):
     root = make_course(tmp_path / "course")

@@ -229,8 +229,7 @@ def main() -> None:
 
 def _import(modules: list[str]) -> None:
     for name in modules:
-        with contextlib.suppress(ImportError):  # the submission says what is missing
-            importlib.import_module(name)
+        importlib.import_module(name)
     gc.freeze()  # a child's collector would copy every page on which an object lies
     sys.stdout.flush()
     ctypes.CDLL(None).fflush(None)  # what C libraries have printed must not reach a child's output

@@ -141,7 +141,8 @@ class Exercise:
         self.references = pruned(solution, needed)
         if self.grader is not None and solution:
             used = may_use(solution, _text_of(self.grader))
-            self.imports = (*self.imports, *sorted(used - {*self.imports}))
+            if not missing_packages(_wanted(self.extras)):  # else the submission imports them
+                self.imports = (*self.imports, *sorted(used - {*self.imports}))
             for task in self.tasks:
                 task.refused = replace(task.refused, may_use=used)
 
