@@ -28,7 +28,7 @@ class Direct:
     and `__file__` are in a copy, so that nothing is left beside it.
     """
 
-    seconds_left = float("inf")
+    seconds_left = 3600.0
     said = "your file"
     pasted = ""
     changed = ""
