@@ -4,7 +4,6 @@ import io
 import json
 import os
 import stat
-import sys
 from pathlib import Path
 
 import psutil
@@ -15,13 +14,13 @@ from botschool.errors import BotschoolError
 from botschool.grading.copies.new import new_exercise
 from botschool.grading.copies.skeleton import skeleton, write_skeletons
 from botschool.grading.declare import exercise as exercises
-from botschool.grading.declare.checks import NotDone, Wrong, expect_array, plain, show
+from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import load_exercise
 from botschool.grading.declare.trust import trust
 from botschool.grading.judge.points import GraderFault, grade_task
 from botschool.grading.judge.submission import Submission, grade
 from botschool.grading.report.hints import next_hints, read_hints
-from botschool.grading.report.screen import Screen, notice
+from botschool.grading.report.screen import Screen
 from botschool.grading.run import confined
 from botschool.grading.run.confined import fork_server
 from botschool.grading.run.student import Student
@@ -281,25 +280,6 @@ def test_students_text_is_no_markup(graded):
     assert "[bold]" in text and "\x1b" not in text and "\x07" not in text
 
 
-def test_notice_once(course):
-    result = grade(load_exercise(3, course), course / "exercises" / FOLDER / FILE)
-    for task in result.tasks:
-        task.missing = ["files", "processes", "network"]
-    text = " ".join(shown(lambda screen: screen.end(result)).split())
-    assert text.count("Notice:") == 1 and "files, processes and network" in text
-    assert notice([]) == ""
-
-
-def test_values_in_words():
-    assert show([1] * 100).endswith("...") and len(show("x" * 1000)) == 60
-    assert plain("a\x1b[1m\u202eb\n\tc") == "a\ufffd[1m\ufffdb\n\tc"
-    for value in (None, "1", ["1"], [None], [[1], [1, 2]], {"a": 1}, [10**400], float("nan")):
-        with pytest.raises(Wrong):
-            expect_array("f()", value, (1,))
-    assert expect_array("f()", [True], (1,)) == [1.0]
-    assert issubclass(NotDone, Wrong)
-
-
 def test_debugging_runs_here(course, capsys, monkeypatch):
     from botschool.grading.commands import grade_command
 
@@ -315,27 +295,6 @@ def test_a_single_task(course):
     assert (result.points, result.max_points) == (40, 40)
     assert exercises.exercise_numbers(course) == [3]
     assert stat.S_IMODE((course / "exercises").stat().st_mode) & 0o700
-
-
-def test_debugging_leaves_nothing_beside_the_file(course, capsys, tmp_path, monkeypatch):
-    from botschool.grading.commands import grade_command
-
-    file = course / "exercises" / FOLDER / FILE
-    (file.parent / "helper.py").write_text("factor = 2\n")
-    file.write_text(
-        "import sys\nimport helper\nfrom pathlib import Path\n"
-        "def double(x):\n    Path('left.txt').touch()\n    Path(__file__).with_name('b').touch()\n"
-        "    print(sys._getframe().f_code.co_filename)\n    return helper.factor * x\n"
-    )
-    monkeypatch.setattr(sys, "dont_write_bytecode", False)
-    load_exercise(3, course)  # leaves a cache of the grader's code
-    before = sorted(file.parent.rglob("*"))
-    here = Path.cwd()
-    grade_command("3.1", None, False, True)
-    out = capsys.readouterr().out
-    assert "passed: doubles\n" in out and str(file.resolve()) in out  # where breakpoints are
-    assert sorted(file.parent.rglob("*")) == before
-    assert Path.cwd() == here
 
 
 # --- what can be loaded in part
@@ -375,18 +334,6 @@ def test_a_script_and_a_notebook_that_fail_in_part_are_judged_alike(course, tmp_
             "The notebook is not Python yet. Mend this first:\n  line 5 of the cell 'def total"
             in (notebook.banner)
         )
-
-
-@pytest.mark.slow
-def test_lines_of_a_file_that_is_loaded_in_part(graded):
-    result = graded(
-        "raise ValueError\n# %%\ndef double(x):\n    return [][1]\n# %%\n"
-        "def total(x):\n    return float(sum(x))\n"
-    )
-    assert "raised IndexError: list index out of range\n  tiny.py:4: return" in (
-        result.tasks[0].message
-    )
-    assert result.tasks[1].points == 40
 
 
 @pytest.mark.slow

@@ -21,11 +21,10 @@ from botschool.grading.copies.skeleton import find_leaks
 from botschool.grading.declare.exercise import load_exercise
 from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import grade
-from botschool.grading.report.progress import recall
 from botschool.grading.report.screen import Screen, Watched, watch
 from botschool.grading.report.showing import show
 from botschool.sandbox import seccomp
-from exports import notebook, written, zipped
+from exports import notebook, zipped
 from running import call, environment_of_command, finish, one_sentence, start
 from tiny_course import FILE, FOLDER, SOLUTION, make_course, submit
 
@@ -143,40 +142,7 @@ def test_progress_shows_what_was_graded(course, monkeypatch):
     assert " 0 " in rows_of_progress()[0]["3"]
 
 
-DAMAGED = ("1e400", "NaN", "-1", "41", "9" * 5000, "[3]", "true", "null", '"x"')
 """Points that no grading has stored."""
-
-
-def entry(points):
-    return f'{{"3.2": {{"points": {points}, "max_points": 40, "digest": "x"}}}}'
-
-
-@pytest.mark.parametrize("points", DAMAGED, ids=lambda text: text[:9])
-def test_points_that_no_grading_has_stored_do_not_count(course, points):
-    exercise = load_exercise(3, course)
-    for text, known in ((entry(points), False), (entry("39"), True)):
-        written(course / ".botschool" / "last", {"ex03.json": text.encode()})
-        assert bool(recall(course, exercise)[1]) == known
-
-
-@pytest.mark.slow
-def test_progress_without_a_file_or_with_a_damaged_store(course):
-    file = course / "exercises" / FOLDER / FILE
-    file.write_text(SOLUTION)
-    call("grade", "3")
-    (stored,) = (course / ".botschool" / "last").iterdir()
-    for text in ("", "[]", "[" * 100_000, "5", "null", '"3.1"', *map(entry, DAMAGED)):
-        stored.write_text(text)
-        assert "not graded yet" in rows_of_progress()[0]["3"]
-    file.unlink()
-    assert "missing: botschool start 3" in rows_of_progress()[0]["3"]
-    assert "botschool start 3" in rows_of_progress("--grade")[0]["3"]
-
-
-@pytest.mark.slow
-def test_other_submissions_are_not_remembered(course):
-    call("grade", "3", "--submission", "solutions", cwd=course)
-    assert " 0 " in rows_of_progress()[0]["3"]
 
 
 @pytest.mark.slow

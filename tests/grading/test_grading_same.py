@@ -3,7 +3,6 @@
 import re
 import subprocess
 import sys
-import textwrap
 import time
 from pathlib import Path
 
@@ -292,20 +291,6 @@ def test_after_a_time_out_a_function_is_not_called_again(graded):
     assert time.process_time() - start < 15
 
 
-def test_a_call_may_import_a_package(graded):
-    text = """
-        import time
-        begun, _mixed = time.process_time(), mixed
-
-        def mixed(*arguments):
-            while time.process_time() < begun + 3:
-                pass
-            return _mixed(*arguments)
-    """
-    passed, messages = graded(textwrap.dedent(text))
-    assert passed["4.1"], messages
-
-
 def test_of_two_mistakes_one_is_named(tmp_path, server):
     """The first check's wrong answers are those of one mistake; the other check has another."""
     made = Exercise(4, "Tiny", file="tiny.py")
@@ -329,15 +314,6 @@ def test_of_two_mistakes_one_is_named(tmp_path, server):
         .tasks[0]
         .message.startswith("Your code leaves out the factor.")
     )
-
-
-COUNTED = '''
-def many(values, limit):
-    """How many are too large."""
-    ### BEGIN SOLUTION task 4.1: count
-    return sum(1 for value in values if value > limit) if len(values) > 1 else -1
-    ### END SOLUTION
-'''
 
 
 GRADER = """
@@ -397,21 +373,6 @@ def test_pytest_collects_tasks_and_checks(course):
     assert "1 failed, 1 passed" in ran and "Traceback" not in ran
     ran = subprocess.run([*command, "-k", "4.5"], capture_output=True, text=True).stdout
     assert "1 passed, 1 deselected" in ran
-
-
-def test_lists_of_arrays_are_changed_one_at_a_time(tmp_path):
-    made = Exercise(4, "Tiny", file="tiny.py")
-
-    @same(made.task("4.1", "Mixing"), 100, "mixed")
-    def mixes(rng):
-        yield [rng.normal(size=3)], [rng.normal(size=3)], 0.5, 3
-
-    made.knows(SOLUTION)
-    file = tmp_path / "tiny.py"
-    file.write_text(SOLUTION)
-    assert grade(made, file).points == 100
-    file.write_text(SOLUTION + WRONG["cache without the first"])
-    assert grade(made, file).points == 0
 
 
 PAID = '''"""A solution."""

@@ -19,10 +19,8 @@ from botschool.grading.report.album import captioned, captions, write_album
 from botschool.grading.report.checkpoints import OPEN, RIGHT, WRONG, checkpoints
 from botschool.grading.report.drawing import Panel, chosen, draw, panels_of
 from botschool.grading.report.progress import remember
-from botschool.grading.report.screen import Screen
 from botschool.grading.report.showing import show_done, show_one
 from botschool.paths import material
-from botschool.render.panel import STILL, lively
 from browser import Browser, find_browser
 
 pytestmark = pytest.mark.slow
@@ -87,11 +85,6 @@ def test_a_wrong_answer_lies_over_the_expected_one(kind):
     assert set(KINDS) == {*DRAWN, "heat", "histogram"}
 
 
-def test_a_histogram_shows_shares_of_both():
-    filled, outline = axes_of(panel("histogram", LINE + 100, LINE))[0].patches
-    assert filled.get_xy()[:, 1].max() > 0 and outline.get_xy()[:, 0].max() >= 119
-
-
 def test_tables_stand_beside_each_other_with_their_difference():
     yours = TABLE + np.eye(5, 6)
     axes = [each for each in axes_of(panel("heat", yours, TABLE)) if each.images]
@@ -101,14 +94,6 @@ def test_tables_stand_beside_each_other_with_their_difference():
     assert axes[0].images[0].get_clim() == axes[1].images[0].get_clim() == (0, 29)
     (alone,) = [each for each in axes_of(panel("heat", TABLE)) if each.images]
     assert np.array_equal(alone.images[0].get_array(), TABLE)
-
-
-def test_of_a_stack_of_tables_the_one_that_differs_is_seen():
-    stack = np.zeros((4, 5, 6))
-    yours = stack.copy()
-    yours[2, 1, 1] = 7
-    first = next(each for each in axes_of(panel("heat", yours, stack)) if each.images)
-    assert first.images[0].get_array().max() == 7
 
 
 @pytest.mark.parametrize(
@@ -160,11 +145,6 @@ def test_no_answer_stops_the_drawing(odd):
             if found and found[0].kind == kind:  # else the shape has chosen another one
                 draw("task $ {", found)
     assert panels_of("f", odd, {"a": 1.0, "b": 2.0}, Picture("."), False)[0].apart != 0
-
-
-def test_other_lengths_are_told():
-    assert panel("curves", LINE[:9], LINE).note == "yours has 9 rows, expected are 20"
-    assert "shape (5, 6)" in panel("curves", TABLE, LINE).note
 
 
 # ------------------------------------------------------------------- tasks, end to end
@@ -311,17 +291,6 @@ def test_pictures_lie_beside_the_grader_plain_or_packed(tmp_path, monkeypatch):
     assert not any(task.picture for task in exercise.tasks)
 
 
-def test_the_report_names_the_command(capsys):
-    from botschool.grading.judge.submission import Result, TaskResult
-
-    task = TaskResult("7.3", "Arrows", 0, 13, "It is wrong.", pictured=True)
-    Screen().end(Result(7, "Phase portrait", [task]))
-    assert "botschool show 7.3" in " ".join(capsys.readouterr().out.split())
-    task.pictured = False
-    Screen().end(Result(7, "Phase portrait", [task]))
-    assert "botschool show" not in capsys.readouterr().out
-
-
 # ------------------------------------------------------------------- the page, and films
 @pytest.fixture
 def made(tmp_path):
@@ -389,16 +358,3 @@ def test_the_page_in_a_browser(made, tmp_path, monkeypatch):
         assert all(r.startswith(("file:", "data:", "about:")) for r in browser.requests)
     finally:
         browser.close()
-
-
-def test_a_film_leaves_out_what_stands_still():
-    from types import SimpleNamespace
-
-    def step(number, place):
-        picture = np.zeros((64, 320, 3), np.uint8)
-        picture[8:24, place : place + 16] = 255
-        return picture, 1, SimpleNamespace(step=number, reward=0.0, total=0.0, totals=())
-
-    places = [0, 16, 32, *[48] * 100, 64, *[80] * 5]
-    film = list(lively((step(i, place) for i, place in enumerate(places)), fps=10))
-    assert len(film) == len(places) - (99 - int(STILL * 10))
