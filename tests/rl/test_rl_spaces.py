@@ -8,7 +8,7 @@ import pytest
 from gymnasium import spaces
 
 from botschool.errors import BotschoolError
-from botschool.problems.spaces import PlainObservations, performed, plain_actions
+from botschool.problems.spaces import PlainObservations, fitted, plain_actions
 from botschool.rl.environments import make
 
 pytest.importorskip("stable_baselines3")
@@ -159,7 +159,7 @@ def test_plain_spaces_hold_what_is_translated(space):
     acted = plain_actions(space)
     acted.seed(1)
     for _ in range(20):
-        assert space.contains(performed(acted.sample(), space))
+        assert space.contains(fitted(acted.sample(), space))
 
 
 @pytest.mark.parametrize("fault, says", [
