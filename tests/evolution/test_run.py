@@ -50,7 +50,6 @@ class Evaluations:
 
 def observed(folder, *arguments, **options):
     run = Run(small(folder, *arguments, **options), seed=7)
-    run.together = False  # tests/evolution/test_together.py proves that nothing else differs
     evaluations = Evaluations(run)
     assert evolve(run, folder)
     if not run.problem.native:

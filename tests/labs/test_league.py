@@ -82,8 +82,7 @@ def test_metres_and_poles_are_those_of_the_robots(tmp_path):
     run = Run(load(EXPERIMENTS / "cartpole.ini"), 106)
     run.limit = Limit(steps=30_000)
     while not run.limit.reached(run):
-        run.advance(goes_on=True)
-    run.settle()
+        run.advance()
     np.save(tmp_path / "g.npy", run.record.bestg)
     assert longest_pole(read_entry(entry(tmp_path, tmp_path / "g.npy", "cartpole", "Gus"))) > 1.5
 

@@ -22,8 +22,7 @@ def main() -> None:
         for seed in seeds:
             run = Run(experiment(bonus), seed)
             while not run.limit.reached(run):
-                run.advance(goes_on=True)
-            run.settle()
+                run.advance()
             found.append(run.record.bestg)
             print(f"bonus {bonus:g}, seed {seed}: {run.record.bestg_fitness:.0f}", flush=True)
     np.save(FILE, np.reshape(found, (len(BONUSES), len(seeds), -1)).astype("<f4"))

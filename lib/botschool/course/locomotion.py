@@ -73,8 +73,7 @@ class Runner:
         run = Run(experiment, seed)
         run.limit = Limit(steps=steps)
         while not run.limit.reached(run):
-            run.advance(goes_on=True)
-        run.settle()
+            run.advance()
         return np.array(run.record.bestg)
 
     def record(self, genotype: np.ndarray, seed: int, maxsteps: int = 1000) -> dict:

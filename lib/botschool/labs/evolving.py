@@ -107,10 +107,9 @@ def made(condition: Condition, seed: int, student: Any = None) -> SavedRun:
     if not wanted:
         run.limit = Limit(steps=run.max_steps, generations=condition.generations or np.inf)
     while not run.limit.reached(run):
-        run.advance(goes_on=True)
+        run.advance()
         if run.record.generation in wanted:
             populations[run.record.generation] = _individuals(run)
-    run.settle()
     stat = run.record.rows()[:, : len(STAT)]
     return SavedRun(condition, seed, stat, np.array(run.record.bestg), populations)
 
