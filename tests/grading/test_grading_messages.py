@@ -82,7 +82,7 @@ def test_no_python_is_said_once_with_line_and_caret(graded):
     ],
 )
 def test_what_keeps_a_file_from_loading(graded, line, words, monkeypatch):
-    monkeypatch.setattr("botschool.grading.judge.submission.LOADING_SECONDS", 1)
+    monkeypatch.setattr("botschool.grading.run.loading.LOADING_SECONDS", 1)
     assert words in graded(line).banner
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 import hashlib
 import importlib.util
-import linecache
 import re
 import sys
 from collections.abc import Callable, Iterable, Mapping
@@ -17,7 +16,7 @@ from typing import Any
 from botschool.errors import BotschoolError, listed
 from botschool.grading.declare.libraries import Refused
 from botschool.grading.declare.mistakes import Known, case_text
-from botschool.grading.declare.modules import may_use
+from botschool.grading.declare.modules import may_use, text_of
 from botschool.grading.declare.picture import Picture
 from botschool.grading.declare.references import pruned
 from botschool.grading.declare.state import DEFAULT, given_secret, slow_key
@@ -140,7 +139,7 @@ class Exercise:
         needed = {id for task in self.tasks for id in task.needs}
         self.references = pruned(solution, needed)
         if self.grader is not None and solution:
-            used = may_use(solution, _text_of(self.grader))
+            used = may_use(solution, text_of(self.grader))
             if not missing_packages(_wanted(self.extras)):  # else the submission imports them
                 self.imports = (*self.imports, *sorted(used - {*self.imports}))
             for task in self.tasks:
@@ -308,15 +307,6 @@ def load_exercise(number: int, root: Path | None = None) -> Exercise:
         exercise.knows(solution.read_text(encoding="utf-8"), case_text(root, number))
     exercise.weigh(chosen(root, number))
     return exercise
-
-
-def _text_of(grader: Any) -> str:
-    """Return a grader's text, also that of a packed one."""
-    own = (
-        each for each in vars(grader).values() if getattr(each, "__module__", "") == grader.__name__
-    )
-    codes = [each.__code__.co_filename for each in own if hasattr(each, "__code__")]
-    return "".join(linecache.getlines(codes[0])) if codes else ""
 
 
 def _module(name: str, file: Path) -> Any:

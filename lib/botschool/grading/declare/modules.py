@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import linecache
 import os
 import re
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from botschool.sandbox.paths import IMPORT_ROOT
 
@@ -38,6 +40,13 @@ def may_use(solution: str, grader: str) -> frozenset[str]:
     drivers = imported("\n".join(re.findall(r"^[ \t]+.*", grader, re.MULTILINE)))
     helpers = {name for name in imported(grader) if name.startswith(f"{OWN}.grading.run.")}
     return frozenset({*imported(graded), *named, *drivers, *helpers} - {OWN})
+
+
+def text_of(grader: Any) -> str:
+    """Return the text of a grader, given as a module, also of a packed one."""
+    own = (it for it in vars(grader).values() if getattr(it, "__module__", "") == grader.__name__)
+    files = [function.__code__.co_filename for function in own if hasattr(function, "__code__")]
+    return "".join(linecache.getlines(files[0])) if files else ""
 
 
 @cache

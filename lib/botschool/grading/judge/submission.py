@@ -19,12 +19,12 @@ from botschool.grading.judge.points import TaskResult, grade_task, tried_twice
 from botschool.grading.judge.sentence import built_on
 from botschool.grading.run.cells import NEWER, Script, Unreadable, gives_builtins, scripts
 from botschool.grading.run.confined import (
-    MachineFault,
     content_digest,
     fork_server,
     submission_files,
 )
 from botschool.grading.run.failures import Origin, SourceLines, marked
+from botschool.grading.run.loading import left_out_of, trouble_of
 from botschool.grading.run.notebooks import code_cells, names_in_other_cells
 from botschool.grading.run.ours import ours_of
 from botschool.grading.run.student import Student
@@ -32,10 +32,6 @@ from botschool.sandbox import ForkServer
 from botschool.sandbox.inside import read_inside
 from botschool.sandbox.scratch import MAX_COPIED
 
-MOST_LOST = 100
-"""Names without a value that are told."""
-LOADING_SECONDS = 10
-"""Processor seconds of all code in a file or a notebook outside functions."""
 _CELL = re.compile(r"^(?=# %%)", re.MULTILINE)
 _DEFINITION = re.compile(r"^(async def|def|class)\b", re.MULTILINE)
 _NOT_GRADED = "Not graded: mend the file first, as said above."
@@ -271,7 +267,7 @@ class Submission:
             self._lost |= names_in_other_cells(self._given, self._text())
         file = self._file if self._script else self._given
         place = self._place if self._script else None
-        trouble = tried_twice(partial(_trouble, file, self._server, Origin(place)), self._alone)
+        trouble = tried_twice(partial(trouble_of, file, self._server, Origin(place)), self._alone)
         if trouble is None:
             return
         banner = getattr(trouble, "banner", str(trouble))
@@ -298,7 +294,7 @@ class Submission:
             "\nUntil then, only functions, classes and imports count, with the names that they use."
         )
         lost = [name for *_, names in defined.left_out for name in names]
-        for name, line, said in _left_out(self._file, self._server, self._origin()):
+        for name, line, said in left_out_of(self._file, self._server, self._origin()):
             lost.append(name)
             self._lost[name] = f"{self._place(line)} raised {said}"
         if lost:
@@ -381,38 +377,3 @@ def _of_both(line: str, own: str, again: TaskResult, gain: int) -> tuple[str, st
     again.complete()
     below = _lines(again.cause, own) if own else again.message
     return again.cause, _lines(line, below) if gain else _lines(below, line)
-
-
-def _left_out(file: Path, server: ForkServer, origin: Origin) -> list[tuple[str, int, str]]:
-    """Return (name, line, what was raised) of each name that has no value, as the file tells."""
-
-    def left_out(module):
-        return module.__left_out__
-
-    student = Student(file, LOADING_SECONDS, server=server, origin=origin)
-    try:
-        found = student.run(left_out, said="the code outside functions")
-        return [(plain(str(n)), int(line), plain(str(said))) for n, line, said in found[:MOST_LOST]]
-    except (Wrong, MachineFault, TypeError, ValueError):
-        return []
-    finally:
-        student.close()
-
-
-def _trouble(file: Path, server: ForkServer, origin: Origin, tried: bool) -> Wrong | None:
-    """Return why a submission's file cannot be loaded; None if it can.
-
-    Raises Wrong if it must not be loaded.
-    """
-
-    def loads(module):
-        return True
-
-    student = Student(file, LOADING_SECONDS, server=server, tried=tried, origin=origin)
-    try:
-        student.run(loads, said="the code outside functions")
-    except Wrong as error:
-        return error
-    finally:
-        student.close()
-    return None
