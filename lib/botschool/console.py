@@ -14,6 +14,16 @@ from botschool.screen import plain
 class Console(rich.console.Console):
     """Rich's console; only its own styles and movements of the cursor steer the terminal."""
 
+    @property
+    def file(self) -> Any:
+        """Return the stream that lets styles through, also while a bar has replaced stdout."""
+        stream = super().file
+        return getattr(stream, "rich_proxied_file", stream)
+
+    @file.setter
+    def file(self, stream: Any) -> None:
+        self._file = stream
+
     def render(self, renderable: Any, options: Any = None) -> Iterable[Segment]:
         """Yield the segments of something to print, their texts made plain."""
         for segment in super().render(renderable, options):

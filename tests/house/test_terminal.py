@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from rich.markdown import Markdown
 from rich.markup import escape
+from rich.progress import Progress
 
 import botschool
 from botschool.cli.app import GROUPS
@@ -76,6 +77,17 @@ def test_rich_styles_its_own_texts_and_no_others(capsys):
         color_system="standard",
     )
     assert not steering(re.sub(r"\x1b\[[0-9;]*m", "", evil)) and "\ufffd" in evil
+
+
+def test_bars_move_the_cursor_and_what_is_printed_beside_them_does_not(capsys):
+    """A bar replaces stdout by a stream of Rich's."""
+    for said in ("benign", EVIL):
+        with guarded_terminal(), Progress(console=Console(force_terminal=True)) as bar:
+            bar.add_task("x", total=2)
+            print(said)
+        text = capsys.readouterr().out
+        assert "\r\x1b[2K" in text and ("\ufffd" in text) == (said == EVIL)
+        assert not {"\x9b", "\u202e", "\x01"} & {*text} and "\x1b]" not in text
 
 
 def test_only_one_module_makes_consoles_and_every_bar_has_one():
