@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from botschool import problems
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.evolution import fresh
@@ -146,6 +147,39 @@ class Run:
         if path is None and self._owner is None:
             return made
         return Path(shutil.move(made, Path(made.name if path is None else path)))
+
+    def act(self, observation: Any) -> np.ndarray | int:
+        """Return the best robot's action for an observation: an index, or float32, (actuators,).
+
+        A network with a memory remembers what it saw: `reset()` begins an episode.
+        """
+        return self._policy.act(np.asarray(observation))
+
+    def reset(self) -> None:
+        """Let the best robot forget what it saw: an episode begins."""
+        self._policy.reset(self.seed, 0)
+
+    @cached_property
+    def _policy(self) -> Any:
+        policy = problems.of(self.experiment).policy(self.experiment.policy)
+        policy.load(*policy.split(self.best))
+        policy.reset(self.seed, 0)
+        return policy
+
+    def export(self, path: str | PathLike[str]) -> Path:
+        """Write the best robot's controller for other tools; return the path.
+
+        The ending says what: .py needs NumPy alone, .h is C without libraries, .onnx and .pt
+        (TorchScript) take the memory as further inputs and give it as further outputs. None has
+        action noise. Raises BotschoolError.
+        """
+        from botschool.interface.controller import Controller
+        from botschool.interface.export import export
+
+        controller = Controller(self._policy, *self._policy.split(self.best))
+        return export(
+            controller, Path(path), f"{self.experiment.exp.environment}, seed {self.seed}"
+        )
 
     def plot(self, path: str | PathLike[str] | None = None) -> Figure | Path:
         """Draw the curves; see `Runs.plot`."""
