@@ -292,7 +292,8 @@ def _join_left(
     """
     taken, proposed = set(of.values()), defaultdict[int, set[int]](set)
     for pair in pairs:
-        if pair is best or not pair.agrees(of):
+        is_whole = pair.part == WHOLE and pair.label == best.label and not {*pair.of} & {*of}
+        if pair is best or not (is_whole or pair.agrees(of)):
             continue
         for entry, row in pair.of.items():
             if entry in of or entry in why or row in taken:

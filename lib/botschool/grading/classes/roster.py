@@ -187,10 +187,11 @@ def _names(rows: Sequence[dict[str, str]], heads: Sequence[str]) -> list[str]:
         if fits(cells(head), lambda text: is_name(re.sub(r"(?<=[^\W\d])\d+", "", text))):
             return _unique([_turned(text) for text in cells(head)], rows, heads)
     for a, b in itertools.pairwise(heads):
-        both = [f"{row[a]} {row[b]}".strip() for row in rows]
-        words = [row[a] and row[b] and is_name(text) for row, text in zip(rows, both, strict=True)]
-        if all(words) and fits(both, is_name):
-            return _unique(both, rows, heads)
+        pairs = [(row[a], row[b]) for row in rows]
+        both = [f"{one} {other}".strip() for one, other in pairs]
+        small = sum(one[:1].islower() or other[:1].islower() for one, other in pairs)
+        if all(map(all, pairs)) and small * 5 < len(rows) and fits(both, is_name):
+            return _unique(both, rows, heads)  # a user's name begins with a small letter
     for head in heads:
         if fits(cells(head), lambda text: re.search(r"[^\W\d_]", text)) and all(cells(head)):
             return _unique(cells(head), rows, heads)
