@@ -27,6 +27,6 @@ def experiment_of(file: Path) -> Experiment:
 
 def robots_lie_in(experiment: Path | None, folder: Path, genotype: Path | None) -> None:
     """Let robots of one's own lie beside the experiment file, and their tables beside the run."""
-    from botschool.problems.robot import look_in
+    from botschool.problems.finding import look_in
 
     look_in(*filter(None, [experiment and experiment.parent, folder, genotype and genotype.parent]))

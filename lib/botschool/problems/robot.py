@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import base64
 import hashlib
-import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import cache
-from importlib.util import find_spec
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -18,7 +15,6 @@ import numpy as np
 from botschool import _core
 from botschool.errors import BotschoolError
 from botschool.output import save_npz
-from botschool.paths import own_file
 from botschool.wrappers import keywords
 
 FAST = 0.1
@@ -143,40 +139,6 @@ class Robot:
         i = int(below.argmin())
         if below[i] < LIGHT * below[0]:
             yield f"{self.path}: '{self.names[i]}' moves only {below[i]:.1g} kg: give its mass."
-
-
-_places: list[Path] = []
-"""Folders in which robots are looked for, too."""
-
-
-def look_in(*places: Path) -> None:
-    """Look for robots in these folders, too: for their files, and for the tables of a run."""
-    _places[:] = places
-
-
-def read(name: str, reach: float) -> Robot:
-    """Return the robot of an MJCF or URDF file, or of tables that were saved; see `compiled.read`.
-
-    If the file or MuJoCo is missing, the tables of the run in hand serve. Raises BotschoolError.
-    """
-    if name.startswith(DATA):
-        return load(BytesIO(base64.b64decode(name.removeprefix(DATA))))
-    tried = [Path(name), *(place / name for place in _places)]
-    path = next(filter(Path.is_file, tried), None) or own_file(name, "robots")
-    if path.suffix == ".npz":
-        return load(path)
-    if not path.is_file() or not find_spec("mujoco"):
-        for saved in (file for place in _places for file in sorted(place.glob("robotS*.npz"))):
-            return load(saved)
-    from botschool.problems import compiled
-
-    return compiled.read(path, reach)
-
-
-@cache
-def say(sentence: str) -> None:
-    """Print a note on stderr, once."""
-    print(f"note: {sentence}", file=sys.stderr)
 
 
 def load(path: str | Path | BytesIO) -> Robot:

@@ -8,7 +8,8 @@ from typing import Any
 from botschool import _core
 from botschool.errors import BotschoolError
 from botschool.inifile import nearest
-from botschool.problems import robot as robots
+from botschool.problems.finding import find, say
+from botschool.problems.robot import Robot
 from botschool.wrappers import keywords
 
 VARY = ("ground", "mass", "motors", "delay", "noise")
@@ -53,7 +54,7 @@ class Options:
     race: Any = None
     body: dict | None = None
     """Of a robot of one's own: what differs from the problem's description in C++."""
-    robot: robots.Robot | None = None
+    robot: Robot | None = None
 
 
 def options_of(name: str, text: str) -> Options:
@@ -121,7 +122,7 @@ def _declared(given: dict, value: dict[str, float], race: Any) -> Options:
         )
     if value["substep"] > value["seconds"]:
         raise BotschoolError("substep must not be above seconds.")
-    robot = robots.read(path, value["reach"])
+    robot = find(path, value["reach"])
     substeps = max(1, round(value["seconds"] / value["substep"]))
     robot.declare(
         race,
@@ -134,7 +135,7 @@ def _declared(given: dict, value: dict[str, float], race: Any) -> Options:
         effort=value["effort"],
     )
     for sentence in robot.doubts(value["seconds"] / substeps):
-        robots.say(sentence)
+        say(sentence)
     facts = {
         "observations": robot.observations,
         "outputs": robot.motors,
