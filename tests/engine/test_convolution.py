@@ -168,7 +168,7 @@ def test_a_policy_sees_the_picture():
         picture = moment.observation.reshape(40, 40, 3)
         assert picture.max() == 200
         action, _ = reference.step(picture.transpose(2, 0, 1).ravel() / 255)
-        assert moment.action == pytest.approx(action, abs=1e-6)
+        assert moment.action == pytest.approx(0.4 * action, abs=1e-6)  # the limits of its space
 
 
 # evolution
@@ -246,5 +246,5 @@ def test_what_atari_needs(tmp_path, command, monkeypatch):
     ini.write_text(ini.read_text().replace("algo =", "wrappers = AtariPreprocessing\nalgo ="))
     code, _, errors = command("es", "-f", ini, "-o", tmp_path / "run")
     sentence = errors.splitlines()[-1]  # the emulator's banner may stand above it
-    assert code == 2 and sentence.startswith("error: AtariPreprocessing needs a package")
+    assert code == 2 and "AtariPreprocessing needs a package" in sentence
     assert "opencv" in sentence

@@ -149,6 +149,7 @@ class Killed(BaseException):
     """Stands for a kill: nothing handles it."""
 
 
+@pytest.mark.slow
 @EVERY
 @pytest.mark.parametrize("algo", ALGORITHMS)
 def test_a_kill_at_any_file_operation_does_not_show(algo, step, tmp_path, monkeypatch):

@@ -243,6 +243,7 @@ def test_wild_genotypes_end_like_others(name, value):
         assert np.all(result[1] <= LIMIT)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("isa", _core.instruction_sets())
 def test_a_block_of_pairs_is_made_of_single_episodes(isa):
     """One competitor after another for all candidates, when lanes share its weights, or mixed."""
