@@ -180,3 +180,14 @@ def test_the_specification_has_every_hyperparameter_with_its_default():
         <= told.get(name, set())
     ]
     assert not missing
+
+
+def test_every_table_is_one():
+    """A row of dashes stands on a line of its own, below the head."""
+    for name, text in texts().items():
+        if not name.endswith(".md"):
+            continue
+        prose = re.sub(r"^ *```.*?^ *```", "", text, flags=re.DOTALL | re.MULTILINE)
+        for block in re.findall(r"(?:^ *\|.*\n?)+", prose, re.MULTILINE):
+            second = [*block.splitlines(), ""][1]
+            assert re.fullmatch(r" *\|(\s*:?-+:?\s*\|)+\s*", second), f"{name}: {block[:70]}"
