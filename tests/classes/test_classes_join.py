@@ -388,10 +388,10 @@ def test_canvas_names_the_column_exactly_and_keeps_who_is_excused(course, tmp_pa
 
 
 def test_a_column_of_any_table_is_filled_in(course, tmp_path, command):
-    rows = [[*HEAD, "Tiny"], [*ADA, ""], [*BEN, ""]]
+    rows = [[*HEAD, "Tiny <Numeric MaxPoints:50>"], [*ADA, ""], [*BEN, ""]]
     arguments = (saved(tmp_path / "x.zip", {f"Ada Berg/{FILE}": code(60)}), "-o", tmp_path / "out")
     book = ("--gradebook", table(tmp_path / "book.csv", rows))
     assert "name the column that takes the grades" in command("grade-all", *arguments, *book)[2]
     command("grade-all", *arguments, *book, "--column", "Tiny")
     filled = rows_of(tmp_path / "out" / "filled.csv")
-    assert filled == [rows[0], [*ADA, "60"], [*BEN, ""]]
+    assert filled == [rows[0], [*ADA, "30"], [*BEN, ""]]

@@ -239,8 +239,8 @@ def gradebook_with(
 
     Another platform's table keeps all columns. column: the head of the assignment's column, with
     or without Canvas's number, or a part of it. Raises BotschoolError where not exactly one fits.
-    The grade is scaled to Canvas's row of points. Who is excused there (EX) stays so; notes: gets
-    a sentence on that.
+    The grade is scaled to the points that the table names. Who is excused there (EX) stays so;
+    notes: gets a sentence on that.
     """
     table = roster.table
     choice = roster.numbered or [*range(len(table.head))]
@@ -251,7 +251,8 @@ def gradebook_with(
             f"{table.path}: name one assignment's column with --column; there are: {names}."
         )
     above = {at: number_in(table.cell(table.rows[at], index), MOST_POINTS) for at in roster.above}
-    most = next(filter(None, above.values()), None)
+    in_head = re.search(r"(?:MaxPoints|Total Pts)\W*(\d+)", table.head[index])  # D2L, Blackboard
+    most = next(filter(None, above.values()), float(in_head[1]) if in_head else None)
     scale = most / maximum if most and maximum else 1.0
     made, excused = deepcopy(table), []
     kept = [*roster.columns, index] if roster.kind == "canvas" else [*range(len(table.head))]

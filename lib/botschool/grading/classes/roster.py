@@ -189,13 +189,18 @@ def _names(rows: Sequence[dict[str, str]], heads: Sequence[str]) -> list[str]:
     for a, b in itertools.pairwise(heads):
         pairs = [(row[a], row[b]) for row in rows]
         both = [f"{one} {other}".strip() for one, other in pairs]
-        small = sum(one[:1].islower() or other[:1].islower() for one, other in pairs)
+        small = sum(not (_begins(one) and _begins(other)) for one, other in pairs)
         if all(map(all, pairs)) and small * 5 < len(rows) and fits(both, is_name):
             return _unique(both, rows, heads)  # a user's name begins with a small letter
     for head in heads:
         if fits(cells(head), lambda text: re.search(r"[^\W\d_]", text)) and all(cells(head)):
             return _unique(cells(head), rows, heads)
     return _unique([""] * len(rows), rows, heads)
+
+
+def _begins(name: str) -> bool:
+    """Return whether a word begins as names do, in scripts with capitals with one."""
+    return name[:1].isalpha() and not name[:1].islower()
 
 
 def _turned(name: str) -> str:
