@@ -301,6 +301,7 @@ def test_any_table_joins(register, kind, way):
     files = {f"Ada Berg/{FILE}": code(100), f"Ben Cole/{FILE}": code(100)}
     found = register(files, TABLES[kind], **WRITTEN[way])
     assert all(len(row.parts) == 1 for row in found.rows) and len(found.rows) == 2, found.how
+    assert {row.name.lstrip("#") for row in found.rows} == {"Ada Berg", "Ben Cole"}
 
 
 @pytest.mark.parametrize("name", ["x.xlsx", "x.csv"])

@@ -153,6 +153,8 @@ class Joined:
     """Which row each entry has."""
 
     rows: list[int | None]
+    label: str = ""
+    """The column of the pair that joins most."""
     said: str = ""
     """How, in one line."""
     why: dict[int, str] = field(default_factory=dict)
@@ -218,6 +220,7 @@ def join(
     unjoined = {entry for entry in range(len(entries)) if entry not in of}
     doubts = _ambiguous([best], shared)
     joined.why |= {e: why for e, why in doubts.items() if e in unjoined and e not in joined.why}
+    joined.label = best.label
     joined.said = (
         f"joined by {_shown(best.label)} and {plain(best.part)} of the {what}: {len(of)} of "
         f"{len(entries)}"

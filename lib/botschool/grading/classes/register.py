@@ -143,6 +143,10 @@ class Members:
         joined = join(*_shown(self.students), [entries[at] for at in left], own_loose, what)
         if joined.said:
             self.how.append(f"{where or 'Submissions'}: {joined.said}.")
+        for student in self.students:  # called as in the download, first or last name first
+            shown = student.values.get(joined.label, "")
+            if sorted(folded(shown).split()) == sorted(folded(student.name).split()):
+                student.name = plain(clean(shown)) if "," not in shown else student.name
         why = {left[at]: reason for at, reason in joined.why.items()}
         for at, row in zip(left, joined.rows, strict=True):
             student = None if row is None else self.students[row]
