@@ -145,7 +145,7 @@ KEPT = 3
 
 @pytest.fixture
 def ini(tmp_path):
-    """A native problem, some fifteen generations; post-evaluations may wait for the next one."""
+    """A native problem, some fifteen generations."""
     policy = {"episodes": 1, "maxsteps": 20, "out_type": 3}
     return write_experiment(tmp_path, "Pendulum-v1", policy=policy, maxmsteps=0.003)
 
