@@ -66,8 +66,11 @@ class Run:
 
     @cached_property
     def problem(self) -> Problem:
-        """The problem that the run evolved on."""
-        return Problem(self.experiment)
+        """The problem that the run evolved on. Raises BotschoolError."""
+        problem = Problem(self.experiment)
+        with in_python_words():
+            problem.check(self._files.bestg)
+        return problem
 
     @cached_property
     def history(self) -> np.ndarray:
@@ -91,9 +94,6 @@ class Run:
         """
         from botschool.render.watch import read_genotype
 
-        if self._experiment is not None:
-            with in_python_words():
-                self.problem.check(self._files.bestg)
         return read_genotype(self._files.bestg)
 
     @cached_property
