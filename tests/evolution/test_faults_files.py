@@ -2,6 +2,7 @@
 
 import json
 import os
+import pickle
 import shutil
 import sys
 from zipfile import ZipFile
@@ -59,6 +60,26 @@ def test_files_that_are_no_genotypes(refused, tmp_path):
     for path in (results / "checkpointS1.npz", results / "S1.fit", results):
         refused("es", "-f", ini, "-p", "-g", path, says="genotype")
     refused("es", "-f", ini, "-g", tmp_path / "bestgS2.npy", says=["bestgS2.npy", "bestgS11.npy"])
+
+
+class Trap:
+    """Unpickling this is an attack."""
+
+    def __reduce__(self):
+        return (exec, ("raise SystemExit('unpickled')",))
+
+
+def test_pickles_are_never_opened(refused, tmp_path):
+    ini, results = finished_run(tmp_path)
+    np.save(tmp_path / "trap.npy", np.array([Trap()], dtype=object), allow_pickle=True)
+    (tmp_path / "bare.npy").write_bytes(pickle.dumps(Trap()))
+    for name in ("trap.npy", "bare.npy"):
+        refused("es", "-f", ini, "-p", "-g", tmp_path / name, says=["not a genotype"])
+    whole = dict(np.load(results / "checkpointS1.npz"))
+    for name in ("botschool", "algorithm.population", "more"):
+        trapped = whole | {name: np.array([Trap()], dtype=object)}
+        np.savez(results / "checkpointS1.npz", **trapped)
+        refused("es", "-f", ini, "-o", results, "--resume", says=["checkpointS1.npz", "--force"])
 
 
 # checkpoints
