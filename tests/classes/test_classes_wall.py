@@ -143,7 +143,7 @@ DAMAGED = {
     "offset": ("w.zip", damaged_zip(42, b"\xff\xff\xff")),
     "checksum": ("w.zip", damaged_zip(16, b"\0\0\0\0")),
     "many entries": ("w.zip", many_entries(300_000)),
-    "many links": ("w.tgz", links(20_001)),
+    "many links": ("w.tgz", lambda: links(20_001)),
     "long path": ("w.zip", zipped({"/".join(29 * ["d" * 239]) + f"/{FILE}": WORK})),
 }
 
@@ -152,6 +152,7 @@ DAMAGED = {
 @pytest.mark.parametrize("kind", DAMAGED)
 def test_a_damaged_archive_is_no_work_and_not_left_ungraded(find, kind):
     name, content = DAMAGED[kind]
+    content = content() if callable(content) else content
     found = find({f"ada/{FILE}": WORK, f"eve/{name}": content})
     assert found["ada"].choices[3].file
     assert found["eve"].choices[3].problem and not found["eve"].choices[3].unread

@@ -77,7 +77,10 @@ def imported(path: Path, name: str) -> set[str]:
     return found
 
 
-IMPORTS = {name: imported(path, name) for name, path in MODULES.items()}
+@pytest.fixture(scope="module")
+def imports():
+    """Each module, and those of ours that it imports."""
+    return {name: imported(path, name) for name, path in MODULES.items()}
 
 
 def unit(module: str) -> str:
@@ -98,9 +101,9 @@ def test_every_module_has_a_layer():
     assert not [name for name in MODULES if not unit(name)]
 
 
-def test_nothing_imports_upwards():
+def test_nothing_imports_upwards(imports):
     upwards = []
-    for name, targets in IMPORTS.items():
+    for name, targets in imports.items():
         for target in targets:
             one, other = unit(name), unit(target)
             if one == other:
@@ -110,26 +113,26 @@ def test_nothing_imports_upwards():
     assert not upwards, "\n".join(sorted(upwards))
 
 
-def test_nothing_imports_in_a_circle():
+def test_nothing_imports_in_a_circle(imports):
     state: dict[str, int] = {}
 
     def visit(name: str, way: list[str]) -> None:
         assert state.get(name) != 1, " -> ".join([*way[way.index(name) :], name])
-        if name in state or name not in IMPORTS:
+        if name in state or name not in imports:
             return
         state[name] = 1
-        for target in sorted(IMPORTS[name]):
+        for target in sorted(imports[name]):
             # a package's __init__ stands for the package, whose modules may import each other
             if not name.startswith(f"{target}."):
                 visit(target, [*way, name])
         state[name] = 2
 
-    for name in IMPORTS:
+    for name in imports:
         visit(name, [])
 
 
-def test_the_sandbox_imports_nothing_of_ours():
-    for name, targets in IMPORTS.items():
+def test_the_sandbox_imports_nothing_of_ours(imports):
+    for name, targets in imports.items():
         if unit(name) == "sandbox":
             assert all(unit(target) == "sandbox" for target in targets), name
 
