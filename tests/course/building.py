@@ -17,6 +17,7 @@ from botschool.grading.copies.skeleton import skeleton
 from botschool.grading.declare import mistakes
 from botschool.grading.declare.exercise import Exercise, Task, folder_of, load_exercise
 from botschool.grading.declare.mistakes import case_text, inserted, read_cases
+from botschool.grading.declare.same import Same
 
 __all__ = ["inserted"]
 QUICK = 20
@@ -152,8 +153,12 @@ class Case(mistakes.Case):
 
 @cache
 def long_tasks(number: int) -> frozenset[str]:
-    """The tasks of an exercise that may take long."""
-    return frozenset(task.id for task in exercise(number).tasks if task.seconds > QUICK)
+    """The tasks of an exercise in which something is trained, so that they take long."""
+    return frozenset(
+        task.id
+        for task in exercise(number).tasks
+        if task.seconds > QUICK and not all(isinstance(check, Same) for _, _, check in task.checks)
+    )
 
 
 @cache

@@ -18,6 +18,8 @@ from botschool.grading.report.hints import read_hints
 from direct import lost
 
 MUTANTS = building.wrong()
+SECONDS = 30
+"""Processor seconds of a task in this process."""
 WRONG, RIGHT = 7, 3
 """Wrong and right answers to an exercise that are graded confined; all others in this process."""
 NAMED = 8
@@ -145,8 +147,9 @@ def test_mutant_loses_what_it_names(here, mutant):
     if mutant.needs_a_process:
         pytest.skip("it is graded confined")
     exercise = here(mutant.number)
-    tasks = [task for task in mutant.tasks(exercise) if task.seconds <= building.QUICK]
-    why = lost(exercise, mutant.submission, tasks)
+    long = building.long_tasks(mutant.number)
+    tasks = [task for task in mutant.tasks(exercise) if task.id not in long]
+    why = lost(exercise, mutant.submission, tasks, SECONDS)
     assert tuple(why) == mutant.loses, why
 
 
@@ -242,8 +245,9 @@ def test_three_that_write_everything_anew(number):
 def test_alternative_gets_everything(here, alternative):
     """Of all quick tasks, in this process."""
     exercise = here(alternative.number)
-    tasks = [task for task in exercise.tasks if task.seconds <= building.QUICK]
-    assert not lost(exercise, alternative.submission, tasks, 20)
+    long = building.long_tasks(alternative.number)
+    tasks = [task for task in exercise.tasks if task.id not in long]
+    assert not lost(exercise, alternative.submission, tasks, SECONDS)
 
 
 @pytest.mark.course
