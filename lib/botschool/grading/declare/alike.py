@@ -177,7 +177,7 @@ class Call:
 
     def proof(self, answer: Any) -> float:
         """Return how much proof an answer that agrees is."""
-        if raised(self.got) and answer != self.got:
+        if raised(self.got) and not (raised(answer) and answer == self.got):
             return 0.0
         if self.equal is not None and not raised(self.got):
             return float(self.wrong)
