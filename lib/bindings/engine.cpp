@@ -49,29 +49,6 @@ nb::dict to_dict(const Info& info) {
   return d;
 }
 
-/// A reward or an end of episodes of one's own, and the options that go with it.
-struct Aim {
-  Program program;
-  nb::object options;
-};
-
-/// options: None, of either kind, or an Aim around them.
-Setting setting_of(int limit, nb::handle options) {
-  if (limit < 1) throw std::invalid_argument("an episode needs at least one step.");
-  if (nb::isinstance<Aim>(options)) {
-    const Aim& aim = nb::cast<const Aim&>(options);
-    Setting setting = setting_of(limit, aim.options);
-    setting.program = &aim.program;
-    return setting;
-  }
-  Setting setting{limit};
-  if (nb::isinstance<Race>(options))
-    setting.space = &nb::cast<const Race&>(options).options;
-  else if (!options.is_none())
-    setting.arena = &nb::cast<const Options&>(options);
-  return setting;
-}
-
 /// `given` genotypes of one network each (one a robot), or genotypes that hold all networks.
 std::size_t offset_of(const Engine& engine, bool heterogeneous, std::size_t given) {
   return heterogeneous && given == 1 ? engine.layout().parameters : 0;

@@ -2,7 +2,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "bindings.hpp"
+#include "aim.hpp"
 #include "policy_gradient/training.hpp"
 
 namespace botschool {
@@ -278,12 +278,16 @@ void bind_policy_gradient(nb::module_& module) {
       .def_rw("shared", &Hyperparameters::shared)
       .def_rw("pi", &Hyperparameters::pi)
       .def_rw("vf", &Hyperparameters::vf)
-      .def_rw("threads", &Hyperparameters::threads);
+      .def_rw("threads", &Hyperparameters::threads)
+      .def(
+          "choose",
+          [](Hyperparameters& h, nb::handle options) { h.setting = setting_of(1, options); },
+          nb::arg("options").none(), nb::keep_alive<1, 2>());
 
   nb::class_<Training>(module, "PolicyGradient")
       .def(nb::init<const std::string&, int, const Hyperparameters&, const std::string&>(),
            nb::arg("problem"), nb::arg("limit"), nb::arg("hyperparameters"),
-           nb::arg("instruction_set") = "")
+           nb::arg("instruction_set") = "", nb::keep_alive<1, 4>())
       .def("collect", &Training::collect, nb::call_guard<nb::gil_scoped_release>())
       .def("update", &update, nb::arg("learning_rate"), nb::arg("clip_range"),
            nb::arg("clip_range_vf"))

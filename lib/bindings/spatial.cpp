@@ -112,12 +112,16 @@ void bind_spatial(nb::module_& module) {
           nb::arg("damping") = Firmness{}.damping, nb::arg("limit") = Firmness{}.limit,
           nb::arg("stopping") = Firmness{}.stopping);
   nb::class_<Race>(module, "Race")
-      .def(nb::init<std::vector<double>, const std::vector<std::string>&>(),
-           nb::arg("ground") = std::vector<double>(3), nb::arg("vary") = std::vector<std::string>())
+      .def(nb::init<const std::vector<std::vector<double>>&>(),
+           nb::arg("physics") = std::vector<std::vector<double>>())
       .def_prop_ro("ground",
                    [](const Race& race) {
-                     const Ground& ground = race.options.ground;
-                     return nb::make_tuple(ground.slope, ground.step, ground.bumps);
+                     nb::list middle;  // of what an episode's may be
+                     for (const Kind kind : {kSlope, kStep, kBumps, kStairs}) {
+                       const Span& span = race.options.physics.of[kind];
+                       middle.append((span.low + span.high) / 2);
+                     }
+                     return nb::tuple(middle);
                    })
       .def("declare", &Race::declare, nb::arg("names"), nb::arg("links"), nb::arg("shapes"),
            nb::arg("shape_names"), nb::arg("pairs"), nb::arg("pose"), nb::arg("firmness"),

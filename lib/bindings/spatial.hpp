@@ -23,13 +23,17 @@ struct Race {
   Solid solid{};
   Course course{};
 
-  Race(std::vector<double> ground, const std::vector<std::string>& vary) {
-    if (ground.size() != 3) throw std::invalid_argument("the ground has slope, step and bumps.");
-    options.ground = {ground[0], ground[1], ground[2]};
-    const auto has = [&](const char* name) {
-      return std::find(vary.begin(), vary.end(), name) != vary.end();
-    };
-    options.vary = {has("ground"), has("mass"), has("motors"), has("delay"), has("noise")};
+  /// physics: least and greatest value of each Kind, or nothing for the body's own.
+  explicit Race(const std::vector<std::vector<double>>& physics) {
+    if (!physics.empty() && physics.size() != std::size_t(kKinds))
+      throw std::invalid_argument("physics has " + std::to_string(int(kKinds)) + " rows.");
+    for (std::size_t k = 0; k < physics.size(); ++k) {
+      if (physics[k].size() != 2 || !(physics[k][0] <= physics[k][1]))
+        throw std::invalid_argument("a row of physics has a least and a greatest value.");
+      options.physics.of[k] = {physics[k][0], physics[k][1]};
+    }
+    if (options.physics.of[kDelay].low < 0 || options.physics.of[kDelay].high > kLatest)
+      throw std::invalid_argument("the delay is too long.");
   }
   Race(const Race&) = delete;
 

@@ -46,7 +46,8 @@ Experience::Experience(const Kernel& problem, const Kernels& kernels, int limit,
   world_.agent = &agent;
   world_.low = problem.info.low;
   world_.high = problem.info.high;
-  world_.setting = {limit};
+  world_.setting = h.setting;
+  world_.setting.limit = limit;
   world_.seed = h.seed;
   world_.gamma = static_cast<float>(h.gamma);
   if (h.normalize) world_.mean = mean_.data(), world_.scale = scale_.data();

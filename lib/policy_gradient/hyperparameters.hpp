@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "../arena/engine/problem.hpp"
+
 namespace botschool::policy_gradient {
 
 struct Hyperparameters {
@@ -28,6 +30,7 @@ struct Hyperparameters {
   std::vector<int> shared;  ///< neurons of the hidden layers that policy and critic have in common
   std::vector<int> pi{64, 64}, vf{64, 64};  ///< neurons of the policy's and the critic's own layers
   int threads = 1;
+  Setting setting{0};  ///< of the problem; `limit` is the training's
 };
 
 }  // namespace botschool::policy_gradient

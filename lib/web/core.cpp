@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "arena/engine/expression.hpp"
 #include "arena/engine/kernel.hpp"
 #include "arena/engine/stepper.hpp"
 #include "evolution/coevolution.hpp"
@@ -45,8 +46,15 @@ struct Task {
   Info info;
   Layout layout;
   std::optional<policy_gradient::Hyperparameters> agent{};
+  Program program{};
+  bool own = false;  ///< whether the program pays, in place of the problem
+  std::string told{};
 
-  void play(const Jobs& jobs, Recorder* recorder = nullptr) const {
+  const Program* pays() const { return own ? &program : nullptr; }
+
+  void play(const Jobs& given, Recorder* recorder = nullptr) const {
+    Jobs jobs = given;
+    jobs.setting.program = pays();
     OneByOne queue(jobs.count);
     constexpr std::align_val_t alignment{64};
     void* memory =
@@ -230,6 +238,23 @@ EXPORT(agent) Task* agent(const char* problem, const double* spec) {
   return new Task{kernel, kernel->info, {}, h};
 }
 
+/// A reward and an end of episodes of one's own, from now on; "" for the problem's. Returns "", or what is
+/// wrong with them.
+EXPORT(pay) const char* pay(Task* task, const char* reward, const char* ends) {
+  const auto stepper = stepper_of(*task, NativeProblems());
+  task->told = compile(*stepper, reward, ends, task->program);
+  task->own = task->told.empty() && (task->program.pays || task->program.ends);
+  return task->told.c_str();
+}
+
+/// What a reward may name: lines of name, unit and meaning with tabs between them.
+EXPORT(quantities) const char* list_quantities(Task* task) {
+  task->told.clear();
+  for (const Quantity& q : quantities(*stepper_of(*task, NativeProblems())))
+    task->told += q.name + "\t" + q.unit + "\t" + q.meaning + "\n";
+  return task->told.c_str();
+}
+
 Run* lesson(const Task& task, const double* evaluation, const double* algorithm,
             std::uint64_t seed) {
   const TrainingSettings t = TrainingSettings::read(evaluation);
@@ -243,6 +268,7 @@ Run* lesson(const Task& task, const double* evaluation, const double* algorithm,
                t.episodes,
                t.limit};
   c.h.seed = seed;
+  c.h.setting.program = task.pays();
   c.h.n_envs = a.n_envs;
   c.h.n_steps = a.n_steps;
   c.h.batch_size = a.batch_size;
@@ -367,7 +393,7 @@ EXPORT(bench) Bench* bench(const Task* task, int heterogeneous, int limit) {
     bench = new AgentBench(*task, std::move(stepper));
   else
     bench = new EvonetBench(*task, heterogeneous != 0, std::move(stepper));
-  bench->stepper->set({limit, nullptr});
+  bench->stepper->set({limit, nullptr, nullptr, task->pays()});
   return bench;
 }
 EXPORT(bench_end) void bench_end(Bench* bench) { delete bench; }

@@ -1,7 +1,6 @@
 #include "expression.hpp"
 
-#include <algorithm>
-#include <cstring>
+#include "words.hpp"
 
 namespace botschool {
 namespace {
@@ -20,8 +19,6 @@ constexpr Function kFunctions[] = {{"min", 2, 99, Op::smaller},    {"max", 2, 99
                                    {"cos", 1, 1, Op::cosine},      {"clip", 3, 3, Op::smaller},
                                    {"where", 3, 3, Op::choose},    {"change", 1, 1, Op::subtract}};
 constexpr const char* kWords[] = {"and", "or", "not", "if", "else", "True", "False"};
-constexpr const char* kSigns[] = {"**", "<=", ">=", "==", "!=", "+", "-", "*",
-                                  "/",  "<",  ">",  "(",  ")",  ",", "="};
 
 /// Changes of one letter that lead from one word to another.
 std::size_t distance(const std::string& a, const std::string& b) {
@@ -54,16 +51,13 @@ std::string listed(const std::vector<std::string>& words) {
   return text;
 }
 
-bool letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-bool digit(char c) { return c >= '0' && c <= '9'; }
-
 /// Reads one expression from left to right and writes instructions as it goes. The first thing that is
 /// wrong becomes `error`, and the rest of the text is skipped.
-class Compiler {
+class Compiler : public Words {
  public:
   Compiler(const char* key, const std::string& text, const Info& info,
            const std::vector<Quantity>& known, Program& program)
-      : key_(key), text_(text), info_(info), known_(known), program_(program) {}
+      : Words(key, text), info_(info), known_(known), program_(program) {}
 
   Operand compile() {
     if (text_.size() > kLongest) fail("it has more than 1000 characters");
@@ -73,117 +67,10 @@ class Compiler {
     return value;
   }
 
-  /// The sentence, or "".
-  std::string sentence() const {
-    if (error_.empty()) return "";
-    std::string start;
-    for (const char c : text_) {
-      if (start.size() == 60) {
-        start += "...";
-        break;
-      }
-      start += c >= ' ' && c != 127 ? c : ' ';
-    }
-    const bool asks = error_.back() == '?';
-    return std::string(key_) + " = " + start + ": " + error_ + (asks ? "" : ".");
-  }
-
  private:
-  enum class Kind { number, name, sign, end };
-
   Operand fail(const std::string& reason) {
-    if (error_.empty()) error_ = reason;
-    at_ = text_.size();
-    kind_ = Kind::end;
-    word_.clear();
+    wrong(reason);
     return {};
-  }
-
-  // --- words and signs ---
-
-  void take() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
-    word_.clear();
-    kind_ = Kind::end;
-    if (at_ >= text_.size()) return;
-    const char c = text_[at_];
-    if (digit(c) || (c == '.' && at_ + 1 < text_.size() && digit(text_[at_ + 1]))) return number();
-    if (letter(c)) {
-      while (at_ < text_.size() && (letter(text_[at_]) || digit(text_[at_]))) word_ += text_[at_++];
-      kind_ = Kind::name;
-      return;
-    }
-    for (const char* sign : kSigns)
-      if (text_.compare(at_, std::strlen(sign), sign) == 0) {
-        word_ = sign;
-        at_ += word_.size();
-        kind_ = Kind::sign;
-        return;
-      }
-    unknown_sign(c);
-  }
-
-  void unknown_sign(char c) {
-    if (c == '"' || c == '\'')
-      fail("there is a text in quotes, but a reward is made of numbers");
-    else if (c == '^')
-      fail("'^' has no meaning here: write ** for a power");
-    else if (c == '&' || c == '|')
-      fail(std::string("'") + c + "' has no meaning here: write " + (c == '&' ? "and" : "or"));
-    else if (c == '.')
-      fail("a point stands behind a name: quantities have no parts");
-    else if (c == '[' || c == '{')
-      fail(std::string("'") + c + "' has no meaning here: write round brackets");
-    else
-      fail((c > ' ' && c < 127 ? std::string("'") + c + "'" : std::string("a sign")) +
-           " has no meaning here: an expression has names, numbers, brackets, + - * / ** and "
-           "comparisons");
-  }
-
-  /// Digits up to 2^53 and a power of ten up to 22: then the nearest double is one operation away.
-  void number() {
-    double digits = 0;
-    int count = 0, power = 0;
-    bool point = false;
-    for (; at_ < text_.size() && (digit(text_[at_]) || (text_[at_] == '.' && !point)); ++at_) {
-      if (text_[at_] == '.') {
-        point = true;
-        continue;
-      }
-      digits = 10 * digits + (text_[at_] - '0');
-      count += digits > 0;
-      power -= point;
-    }
-    if (at_ < text_.size() && (text_[at_] == 'e' || text_[at_] == 'E')) {
-      std::size_t next = at_ + 1;
-      const bool minus = next < text_.size() && text_[next] == '-';
-      if (next < text_.size() && (text_[next] == '-' || text_[next] == '+')) ++next;
-      int exponent = 0;
-      const std::size_t first = next;
-      for (; next < text_.size() && digit(text_[next]); ++next)
-        exponent = std::min(1000, 10 * exponent + (text_[next] - '0'));
-      if (next > first) power += minus ? -exponent : exponent, at_ = next;
-    }
-    if (at_ < text_.size() && letter(text_[at_])) {
-      fail("a number runs into a letter: write a sign between them, as in 2 * x");
-      return;
-    }
-    if (count > 15 || power > 22 || power < -22) {
-      fail("a number has at most 15 digits and lies between 1e-22 and 1e22");
-      return;
-    }
-    double scale = 1;
-    for (int i = 0; i < (power < 0 ? -power : power); ++i) scale *= 10;
-    value_ = power < 0 ? digits / scale : digits * scale;
-    word_ = "a number";
-    kind_ = Kind::number;
-  }
-
-  bool is(const char* word) const { return kind_ != Kind::end && word_ == word; }
-  bool takes(const char* word) {
-    if (!is(word)) return false;
-    take();
-    return true;
   }
 
   Operand stray() {
@@ -471,15 +358,9 @@ class Compiler {
     return fail("change takes the name of one quantity, as in change(" + known_.back().name + ")");
   }
 
-  const char* key_;
-  const std::string& text_;
   const Info info_;
   const std::vector<Quantity>& known_;
   Program& program_;
-  std::string error_, word_;
-  Kind kind_ = Kind::end;
-  double value_ = 0;
-  std::size_t at_ = 0;
   int depth_ = 0, uses_[kMaxResults] = {};
 
  public:

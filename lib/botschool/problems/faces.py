@@ -6,7 +6,7 @@ in the current folder or is installed, and registers the id.
 
 import gymnasium
 
-from botschool.problems.native import IDS, INFOS
+from botschool.problems.native import CLASSIC, IDS, INFOS, NATIVE
 
 for _name in [name for name in INFOS if name in IDS and name not in gymnasium.registry]:
     for _id in (IDS[_name], _name):
@@ -16,6 +16,14 @@ for _name in [name for name in INFOS if name in IDS and name not in gymnasium.re
             max_episode_steps=INFOS[_name]["limit"],
             kwargs={"problem": _name},
         )
+
+for _name in [name for name in NATIVE if name.startswith(CLASSIC)]:  # for rewards of one's own
+    gymnasium.register(
+        f"botschool/{_name}",
+        entry_point="botschool.envs.native:NativeEnv",
+        max_episode_steps=NATIVE[_name][1],
+        kwargs={"problem": NATIVE[_name][0]},
+    )
 
 gymnasium.register(
     "botschool/PushedCartPole-v0",

@@ -17,7 +17,8 @@ import gymnasium
 from botschool.errors import BotschoolError, said
 from botschool.paths import look_here
 from botschool.problems import faces  # noqa: F401  (registers our own)
-from botschool.problems.native import NATIVE, gym_id, own_name
+
+from botschool.problems.native import CLASSIC, NATIVE, gym_id, own_name
 from botschool.terminal import has_display
 from botschool.wrappers import Wrapper
 
@@ -71,7 +72,7 @@ def _make(name: str, /, **options) -> gymnasium.Env:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", DeprecationWarning)  # errors report it in a sentence
-            return gymnasium.make(_registered(name), disable_env_checker=True, **options)
+            return gymnasium.make(_registered(name, options), disable_env_checker=True, **options)
     except (gymnasium.error.DependencyNotInstalled, ModuleNotFoundError) as error:
         raise BotschoolError(
             f"{name} needs a package that is not installed: {said(error)}."
@@ -88,9 +89,15 @@ def _make(name: str, /, **options) -> gymnasium.Env:
         raise BotschoolError(f"{name} cannot be made: {said(error)}.") from error
 
 
-def _registered(name: str) -> str:
+OWN = {"reward", "ends", "physics"}
+"""Options that only native problems take."""
+
+
+def _registered(name: str, options: dict) -> str:
     """Return the id under which Gymnasium knows it; another package may own the plain id."""
     name = gym_id(name)
+    if name.startswith(CLASSIC):  # Gymnasium has it, too, but with its own reward
+        return f"botschool/{name}" if OWN & options.keys() and name in NATIVE else name
     if name in NATIVE and name not in gymnasium.registry:
         return NATIVE[name][0]
     return f"botschool/{name}" if f"botschool/{name}" in gymnasium.registry else name

@@ -20,6 +20,7 @@
 
 #include "ground.hpp"
 #include "table.hpp"
+#include "terrain.hpp"
 
 #if defined(__GNUC__)
 #define BOTSCHOOL_EACH(i) [&](auto i) __attribute__((always_inline))
@@ -60,6 +61,8 @@ struct Dynamics {
   // what may differ from lane to lane: 1 for the table's
   V grip = V(T(1)), firmness = V(T(1));  ///< of the ground: its friction, its spring and damper
   V lightness = V(T(1));                 ///< 1 / mass of everything, armature included
+  V heaviness = V(T(1));                 ///< gravity / kGravity
+  Terrain<V> terrain;                    ///< of run()
 
   // Numbers of segments, contact points and coordinates are constants for races of many lanes: the
   // compiler unrolls all loops. For single bodies they are ints, and the loops compile fast.
@@ -175,8 +178,9 @@ struct Dynamics {
   /// The forces of gravity, and no other.
   BOTSCHOOL_PHASE void weigh(double gravity) {
     force[0] = V(T(0));
-    force[1] = number(-gravity * numbers.all[0]);
-    upwards<n>(BOTSCHOOL_EACH(j) { force[2 + j] = number(-gravity) * moment[j].x; });
+    force[1] = number(-gravity * numbers.all[0]) * heaviness;
+    const V pull = number(-gravity) * heaviness;
+    upwards<n>(BOTSCHOOL_EACH(j) { force[2 + j] = pull * moment[j].x; });
   }
 
   /// Adds centripetal forces; `square`: of the segments' angular speeds.
@@ -332,6 +336,22 @@ struct Dynamics {
     });
   }
 
+  /// The ground of a race in space, below its x axis.
+  struct Uneven {
+    static constexpr bool flat = false;
+    const Terrain<V>& terrain;
+    BOTSCHOOL_INLINE V height(V x) const {
+      V height, ahead, sideways;
+      terrain.profile(x, V(T(0)), height, ahead, sideways);
+      return height;
+    }
+    BOTSCHOOL_INLINE V slope(V x) const {
+      V height, ahead, sideways;
+      terrain.profile(x, V(T(0)), height, ahead, sideways);
+      return ahead;
+    }
+  };
+
   /// One substep of h seconds.
   template <class Ground>
   BOTSCHOOL_INLINE void step(const V* action, const Ground& ground, T h,
@@ -349,7 +369,16 @@ struct Dynamics {
     });
     whirl(square);
     hinges(action, h);
-    if constexpr (!Body::pinned) touch(ground, h);
+    if constexpr (!Body::pinned) {
+      if constexpr (std::is_same_v<Ground, Terrain<V>>) {
+        if (ground.flat)
+          touch(Flat{}, h);
+        else
+          touch(Uneven{ground}, h);
+      } else {
+        touch(ground, h);
+      }
+    }
     factor();
     substitute();
     // then as this one makes them
@@ -371,11 +400,11 @@ struct Dynamics {
     upwards<n>(BOTSCHOOL_EACH(i) { change[i] = V(T(0.5)) * gain[2 + i]; });
   }
 
-  /// `steps` substeps on even ground. Out of line, so that the problems of a body share it.
+  /// `steps` substeps on `terrain`. Out of line, so that the problems of a body share it.
   BOTSCHOOL_OUTLINE void run(const V* action, int steps, T h) {
     Dynamics own;
     copy_state(*this, own);
-    for (int s = 0; s < steps; ++s) own.step(action, Flat{}, h);
+    for (int s = 0; s < steps; ++s) own.step(action, terrain, h);
     copy_state(own, *this);
   }
 
@@ -390,6 +419,7 @@ struct Dynamics {
     to.grip = from.grip;
     to.firmness = from.firmness;
     to.lightness = from.lightness;
+    to.heaviness = from.heaviness;
   }
 };
 

@@ -23,6 +23,8 @@ struct Lanes {
   T data[W];
 #endif
 
+  static constexpr int width = W;
+
   Lanes() = default;
   BOTSCHOOL_INLINE Lanes(T x) {
 #if defined(__GNUC__)
@@ -86,6 +88,14 @@ BOTSCHOOL_INLINE Lanes<T, W> if_positive(Lanes<T, W> x, Lanes<T, W> yes, Lanes<T
     if (!(x.data[l] > T(0))) yes.data[l] = no.data[l];
   return yes;
 #endif
+}
+
+/// Largest whole numbers that are not above x; |x| < 2^22.
+template <class T, int W>
+BOTSCHOOL_INLINE Lanes<T, W> nearest_below(Lanes<T, W> x) {
+  const Lanes<T, W> magic(sizeof(T) == 8 ? T(6755399441055744.0) : T(12582912));
+  const Lanes<T, W> whole = (x + magic) - magic;
+  return whole - if_positive(whole - x, Lanes<T, W>(T(1)), Lanes<T, W>(T(0)));
 }
 
 template <class T, int W>

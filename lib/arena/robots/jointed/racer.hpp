@@ -109,18 +109,19 @@ struct Racer : ProblemBase {
     rows = {course->solid->links, balls.count};
     name_contacts(balls);
     moving.read(*course->solid, course->solid->firm);
-    ground = options.ground;
-    varied.vary = options.vary;
+    varied.physics = options.physics;
+    varied.seconds = course->seconds;
+    mass = 0;
+    for (int i = 0; i < rows.links; ++i) mass += course->solid->link[i].mass;
   }
 
   double state[kMaxRows][L];
   const Course *own, *course;
   Rows rows;
+  double mass;
   bool held[L / kWidth][kMaxBalls] = {};  ///< of each ball whether its rows may differ from 0
   const char* contact[kMaxLinks];  ///< names of shapes other than those of links, and of each ball
   int contacts, contact_of[kMaxBalls];  ///< which it has, or -1
-  Ground ground;
-  double phase[kPhases][L];  ///< of the ground's bumps
   Varied<L> varied;
 
   /// The coordinates but x and y, and the speeds; of a fixed root none.
@@ -141,6 +142,7 @@ struct Racer : ProblemBase {
   }
 
   void start(int lane, Random& random) {
+    varied.start(lane, random.key());
     for (int k = 0; k < rows.count(); ++k) state[k][lane] = 0;
     const Solid& solid = *course->solid;
     const double noise = course->noise;
@@ -162,9 +164,8 @@ struct Racer : ProblemBase {
       if (hinge.low < hinge.high)
         state[6 + i][lane] = limited(state[6 + i][lane], hinge.low, hinge.high);
     }
-    state[2][lane] += solid.fixed ? 0 : ground.bumps;
-    for (auto& row : phase) row[lane] = random.uniform(-kPi, kPi);
-    varied.start(lane, random.key());
+    state[2][lane] += solid.fixed ? 0 : varied.share[kBumps][lane];
+    for (auto& row : varied.phase) row[lane] = random.uniform(-kPi, kPi);
   }
 
   /// Of the motor of link i for an action.
@@ -304,12 +305,20 @@ struct Racer : ProblemBase {
   void load(int first) {
     load_state(moving, rows, held[first / kWidth],
                [&](int row) { return V::from(&state[row][first]); });
-    auto& terrain = moving.terrain;
-    terrain.ground = ground;
-    terrain.x = V::from(&state[0][first]);
-    terrain.y = V::from(&state[1][first]);
-    for (int k = 0; k < kPhases; ++k) terrain.phase[k] = V::from(&phase[k][first]);
+    varied.lay(moving.terrain, first, V::from(&state[0][first]), V::from(&state[1][first]));
+    if (varied.pushes() && !course->solid->fixed) {
+      double ahead[kWidth], left[kWidth];
+      for (int l = 0; l < kWidth; ++l) varied.push(first + l, mass, false, ahead[l], left[l]);
+      moving.speed.move.x += V::from(ahead);
+      moving.speed.move.y += V::from(left);
+    }
     if (!varied.any()) return;
+    double weight[kWidth];
+    for (int l = 0; l < kWidth; ++l) {
+      const double pull = varied.share[kPull][first + l];
+      weight[l] = pull < 0 ? 1 : pull / double(moving.gravity);
+    }
+    moving.heaviness = V::from(weight);
     const Firmness& firm = course->solid->firm;
     const auto share = [&](int kind) { return V::from(&varied.share[kind][first]); };
     moving.lightness = V(1.0f) / share(kMass);

@@ -50,7 +50,10 @@ struct Runner : ProblemBase {
   const Race& race;
   Varied<L> varied;
 
-  void set(const Setting& setting) { varied.vary = setting.space ? setting.space->vary : Vary{}; }
+  void set(const Setting& setting) {
+    varied.physics = setting.space ? setting.space->physics : Physics{};
+    varied.seconds = race.seconds;
+  }
 
   void bounds(double* low, double* high) const {
     for (int i = size - 1; i < 2 * size - 1; ++i) {
@@ -84,6 +87,9 @@ struct Runner : ProblemBase {
     }
     state[1][lane] += Body::start_height;
     varied.start(lane, random.key());
+    state[1][lane] += varied.share[kBumps][lane];
+    for (int k = 0; k < kPhases; ++k)  // waves go ahead only: sideways the ground is level
+      varied.phase[k][lane] = k % 2 ? kPi / 2 : varied.any_phase(lane, k);
   }
 
   void quantities(Quantities<L>& q) const {
@@ -140,6 +146,13 @@ struct Runner : ProblemBase {
         effort += motor[i] * motor[i];
       }
       if (varied.any()) vary(body, motor, first);
+      varied.lay(body.terrain, first, V::from(&state[0][first]), V(0.0f));
+      if (varied.pushes()) {
+        double ahead[kWidth], left[kWidth];
+        for (int l = 0; l < kWidth; ++l)
+          varied.push(first + l, Moving::numbers.all[0], true, ahead[l], left[l]);
+        body.speed[0] += V::from(ahead);
+      }
       body.run(motor, race.substeps, float(race.seconds / race.substeps));
       const V standing = upright(body);
       const V earned = number(1 / race.seconds) * body.position[0] +
@@ -180,6 +193,12 @@ struct Runner : ProblemBase {
     body.lightness = V(1.0f) / share(kMass);
     body.grip = share(kFriction);
     body.firmness = share(kFirmness) * body.lightness;
+    double weight[kWidth];
+    for (int l = 0; l < kWidth; ++l) {
+      const double pull = varied.share[kPull][first + l];
+      weight[l] = pull < 0 ? 1 : pull / kGravity;
+    }
+    body.heaviness = V::from(weight);
     for (int i = 0; i < n - 1; ++i) motor[i] = share(kMotors) * motor[i];
   }
 
@@ -214,7 +233,9 @@ struct Runner : ProblemBase {
 
   /// Positive where the body has not fallen.
   V upright(const Moving& body) const {
-    const V height = body.position[1], pitch = body.position[2];
+    V height = body.position[1];
+    const V pitch = body.position[2];
+    if (!body.terrain.flat) height -= body.terrain.under(body.position[0], V(0.0f)).height;
     V margin = smaller(height - number(race.lowest), number(race.highest) - height);
     margin = smaller(margin, number(race.lean) - larger(pitch, -pitch));
     if (race.feet >= 0)

@@ -96,22 +96,55 @@ struct Course {
 #define BOTSCHOOL_OPTION
 #endif
 
-/// The shape of the ground: it rises by `slope` with each metre ahead, by `step` (m) at x = 2, and has
-/// bumps up to this height, in each episode others.
+/// Numbers of the world of an episode, in the order in which they are drawn: factors of the body's own
+/// up to kMotors, then steps, radians, m/s^2 (below 0: the body's own), newtons, and the ground's shape:
+/// it rises by kSlope with each metre ahead, by kStep (m) at x = 2, has bumps up to a height, in each
+/// episode others, and from x = 2 on stairs of a height. docs/specification.md, "Physics in numbers".
+enum Kind {
+  kFirmness,
+  kFriction,
+  kMass,
+  kMotors,
+  kDelay,
+  kNoise,
+  kPull,
+  kPush,
+  kSlope,
+  kStep,
+  kBumps,
+  kStairs,
+  kKinds
+};
+/// The longest delay, in steps.
+constexpr int kLatest = 5;
+
+struct Span {
+  double low, high;
+};
+struct Physics {
+  BOTSCHOOL_OPTION Span of[kKinds] = {{1, 1},   {1, 1}, {1, 1}, {1, 1}, {0, 0}, {0, 0},
+                                      {-1, -1}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
+  constexpr bool is(Kind kind, double value) const {
+    return of[kind].low == value && of[kind].high == value;
+  }
+  constexpr bool flat() const {
+    return is(kSlope, 0) && is(kStep, 0) && is(kBumps, 0) && is(kStairs, 0);
+  }
+  /// Whether lanes differ in what their equations hold.
+  constexpr bool plain() const {
+    return is(kFirmness, 1) && is(kFriction, 1) && is(kMass, 1) && is(kMotors, 1) && is(kPull, -1);
+  }
+};
+
+/// The shape of the ground, of a single body.
 struct Ground {
-  BOTSCHOOL_OPTION double slope = 0, step = 0, bumps = 0;
+  double slope = 0, step = 0, bumps = 0, stairs = 0;
 };
 
-/// What differs from episode to episode: docs/specification.md, "Bodies in space".
-struct Vary {
-  BOTSCHOOL_OPTION bool ground = false, mass = false, motors = false, delay = false, noise = false;
-};
-
-/// What the user may choose about a race in space.
+/// What the user may choose about a race of jointed bodies.
 struct SpaceOptions {
   const Course* course = nullptr;  ///< of a declared body, or null: the problem's own
-  Ground ground;
-  Vary vary;
+  Physics physics;
 };
 
 }  // namespace botschool

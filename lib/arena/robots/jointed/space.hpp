@@ -30,6 +30,7 @@ struct Space {
   V friction, stiffness, damping;
   V strength;   ///< of motors, 1 for the table's
   V lightness;  ///< 1 / (mass of everything / the table's)
+  V heaviness;  ///< gravity / the body's own
 
   // the state
   Vec place;                            ///< of the root's origin
@@ -77,7 +78,7 @@ struct Space {
     friction = V(T(firm.friction));
     stiffness = V(T(firm.stiffness));
     damping = V(T(firm.damping));
-    strength = lightness = V(T(1));
+    strength = lightness = heaviness = V(T(1));
     terrain = Terrain<V>();
   }
 
@@ -265,7 +266,7 @@ struct Space {
     const Screw<V>& m = p.middle;
     const Vec momentum = mass * m.move + cross(m.turn, h);
     const Vec spin = p.inertia.turning.times(m.turn) + cross(h, m.move);
-    const V g(gravity);
+    const V g = V(gravity) * heaviness;
     p.force.turn = cross(m.turn, spin) + cross(m.move, momentum);
     p.force.move = cross(m.turn, momentum);
     p.force.move.z += mass * g;

@@ -132,7 +132,8 @@ class Looked final : public SpatialBody {
     body->read(solid_, firm);
     body->gravity = T(gravity);
     auto& terrain = body->terrain;
-    terrain.ground = ground;
+    terrain.flat = ground.slope == 0 && ground.step == 0 && ground.bumps == 0 && ground.stairs == 0;
+    terrain.shape(&ground.slope, &ground.step, &ground.bumps, &ground.stairs);
     terrain.x = T(state[0]);
     terrain.y = T(state[1]);
     for (auto& phase : terrain.phase) phase = T(0);
