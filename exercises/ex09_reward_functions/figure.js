@@ -1,8 +1,207 @@
-// Exercise 9: hoppers that were paid more or less for standing.
+// Exercise 9: a reward of one's own, and hoppers that were paid more or less for standing.
 
 const narrow = (f) => f.section.clientWidth < 560;
 const FAR = 24; // metres of the track
 const paid = (s) => page.bonuses[s.bonus];
+
+// A reward of one's own
+
+const LINK = "#reward=";
+const linked = () => {
+  try { return location.hash.startsWith(LINK) ? decodeURIComponent(location.hash.slice(LINK.length)) : ""; } catch { return ""; }
+};
+
+figure("reward", {
+  title: "Your reward",
+  tries: "write what a hopper shall be paid for in each step, and press <b>Evolve</b>. Or begin with one of three rewards, guess what will become of it, and change a number.",
+  notice: "evolution takes you at your word. What did you mean, and what did you write? The link in the address bar carries your reward: send it to a friend, who sees what evolves from it.",
+  aspect: (f) => (narrow(f) ? 0.82 : 1.75),
+  state: () => ({ reward: linked() || page.starts.runner.reward, start: linked() ? "" : "runner", episode: 0, generation: 0, steps: 0, seconds: 0, evolving: false }),
+  begin(f) {
+    f.own = f.own ?? new Robot(page.hopper, 1);
+    end(f);
+    f.rows = [];
+    f.next = null;
+    shown(f, page.starts[f.state.start] ?? null);
+    if (linked() && !f.came) f.section.scrollIntoView({ block: "start" });
+    f.came = true;
+  },
+  fields: {
+    reward: {
+      label: "<code>reward =</code> what each step pays",
+      wrong: (f, text) => (text.trim() ? core.pay(f.own.task, text) : "reward = : write something, as in ahead + 0.1 * upright"),
+      words: () => core.quantities(core.task(page.hopper.experiment))
+        .map(([name, unit, meaning]) => [name, unit ? `${meaning}, in ${unit}` : meaning])
+        .concat([["abs(", "the size of a number"], ["max(", "the larger number"], ["min(", "the smaller number"], ["where(", "where(b, x, y): x where b is true, else y"], ["change(", "how much a quantity has changed in this step"]]),
+      about: "What a reward may name",
+    },
+  },
+  choices: { start: { label: "begin with", options: { statue: "the statue", leaper: "the leaper", runner: "the runner" } } },
+  buttons: {
+    evolve: ["Evolve", (f) => (f.worker ? end(f) : evolveReward(f))],
+    next: ["New episode", (f) => again1(f, f.state.episode + 1)],
+    copy: ["Copy link", (f) => copyLink(f)],
+  },
+  enter: (f) => { if (!f.worker) evolveReward(f); f.show(); },
+  play: "Run",
+  fps: 62.5,
+  plays: true,
+  changed(f, keys) {
+    if (keys.includes("start")) {
+      f.state.reward = page.starts[f.state.start].reward;
+      end(f);
+      f.rows = [];
+      Object.assign(f.state, { generation: 0, steps: 0, seconds: 0 });
+      shown(f, page.starts[f.state.start]);
+      f.play(!still);
+    } else if (keys.includes("reward")) f.state.start = Object.keys(page.starts).find((name) => page.starts[name].reward === f.state.reward) ?? "";
+  },
+  step(f) {
+    for (let i = 0; i < 2 && !f.own.ended; i++) f.own.step();
+    if (!f.own.ended) return;
+    f.rest = (f.rest ?? 0) + 1;
+    if (f.rest > 40) again1(f, f.state.episode + (f.worker ? 0 : 1)); // a breath, then the newest robot
+  },
+  draw(f, pen) {
+    const { top, curve } = parts1(f);
+    const evolve = f.buttons.evolve.element;
+    evolve.className = "main";
+    evolve.textContent = f.worker ? "Stop" : "Evolve";
+    drawStage(f, pen, f.own, top, [`${number(f.own.state[0] - f.own.first, 1)} m`, f.own.fell ? "the episode has ended" : ""]);
+    drawProgress(f, curve);
+  },
+  status(f) {
+    const { generation, steps, seconds } = f.state;
+    if (f.trouble) return f.trouble;
+    if (!generation) return f.worker ? "the first generation …" : "evolved before, with the reward above: press Evolve to see it happen";
+    return `generation ${generation} · ${number(steps / 1e6, 2)} million steps in ${number(seconds, 0)} s · the best hopper earns ${number(f.rows.at(-1)[1], 0)} in an episode`;
+  },
+  says: (f) => `A hopper that evolves for the reward ${f.state.reward}. It is ${number(f.own.state[0] - f.own.first, 1)} metres ahead after ${number(f.own.steps * 0.008, 1)} seconds. ${f.state.generation ? `Generation ${f.state.generation}.` : ""}`,
+});
+
+const MOST = 4e6; // steps of an evolution in the page
+
+// Shows a robot that a page brings, or a random one.
+function shown(f, start) {
+  f.trouble = "";
+  f.own.load(start ? Robot.saved(start) : f.own.random(1));
+  again1(f, 0);
+}
+
+function again1(f, episode) {
+  if (f.next) f.own.load(f.next);
+  f.rest = 0;
+  f.state.episode = episode;
+  f.own.start(episode);
+  f.own.fell = false;
+  f.own.first = f.own.state[0];
+}
+
+// What the worker does; its code goes there as text.
+async function evolving(code, experiment, seed, most) {
+  const core = await Core.load(await unzipped(code));
+  const task = core.task(experiment);
+  const run = core.run(task, experiment, seed);
+  const began = performance.now();
+  for (let steps = 0; steps < most;) {
+    steps = run.advance();
+    const rows = run.rows;
+    postMessage({ steps, generation: run.generation, row: [...rows.slice(-6)], best: run.bestg, seconds: (performance.now() - began) / 1000 });
+    if (!rows.slice(-6).every(Number.isFinite)) throw new Error("this reward is not a finite number in some step: keep it from dividing by 0, as in x / max(y, 0.01)");
+  }
+  postMessage({ ended: true });
+}
+
+function evolveReward(f) {
+  const wrong = f.state.reward.trim() ? core.pay(f.own.task, f.state.reward) : "no reward";
+  if (wrong) return;
+  const experiment = { ...page.evolution, reward: f.state.reward };
+  const parts = [Core, Run, Bench, unzipped, evolving].map(String).join("\n");
+  const code = `${parts}\nonmessage = ({ data }) => evolving(...data).catch((error) => postMessage({ trouble: error.message }));`;
+  f.worker = new Worker(URL.createObjectURL(new Blob([code], { type: "text/javascript" })));
+  Object.assign(f, { rows: [], trouble: "", next: null });
+  Object.assign(f.state, { generation: 0, steps: 0, seconds: 0 });
+  f.worker.onmessage = ({ data }) => hearEvolved(f, data);
+  f.worker.onerror = (event) => hearEvolved(f, { trouble: event.message });
+  f.worker.postMessage([document.getElementById("core").textContent, experiment, 1, MOST]);
+  try { history.replaceState(null, "", LINK + encodeURIComponent(f.state.reward)); } catch { /* a page without an address */ }
+  f.play(!still);
+}
+
+function hearEvolved(f, { trouble, ended, steps, generation, row, best, seconds }) {
+  if (trouble) f.trouble = trouble;
+  if (trouble || ended) end(f);
+  else {
+    f.rows.push([steps, row[2], row[4]]);
+    Object.assign(f.state, { steps, generation, seconds });
+    const first = !f.next;
+    f.next = best;
+    if (first || (f.own.ended && f.rest > 20)) again1(f, 0);
+  }
+  f.show();
+}
+
+function end(f) {
+  f.worker?.terminate();
+  f.worker = null;
+}
+
+async function copyLink(f) {
+  const link = location.href.split("#")[0] + LINK + encodeURIComponent(f.state.reward);
+  const element = f.buttons.copy.element;
+  try {
+    await navigator.clipboard.writeText(link);
+    element.textContent = "Copied";
+  } catch {
+    try { history.replaceState(null, "", link); } catch { /* stays as it is */ }
+    element.textContent = "See the address bar";
+  }
+  setTimeout(() => { element.textContent = "Copy link"; }, 1600);
+}
+
+function parts1(f) {
+  const slim = narrow(f);
+  const top = Math.round((slim ? 0.56 : 0.62) * f.height);
+  const rows = f.rows ?? [];
+  const values = rows.flatMap(([, best, mean]) => [best, mean]);
+  const [low, high] = values.length ? [Math.min(0, ...values), Math.max(1, ...values)] : [0, 1];
+  const room = 0.08 * (high - low);
+  const last = Math.max(0.5, (rows.at(-1)?.[0] ?? 0) / 1e6);
+  return {
+    top,
+    curve: f.plot({ x: [0, last], y: [low - (low < 0 ? room : 0), high + room], box: [0, top + 16, f.width, f.height - top - 16], labels: ["million steps", "return"], ticks: [5, 3] }),
+  };
+}
+
+function drawProgress(f, curve) {
+  curve.axes();
+  if (!f.rows.length) return;
+  curve.clipped(() => {
+    curve.line(f.rows.map(([steps, , mean]) => [steps / 1e6, mean]), "blue", 1.5, 0.7);
+    curve.line(f.rows.map(([steps, best]) => [steps / 1e6, best]), "orange", 2.5);
+  });
+  curve.legend([["best so far", "orange"], ["mean of the generation", "blue"]]);
+}
+
+// Draws a hopper on its ground, with lines of text.
+function drawStage(f, pen, one, top, lines) {
+  pen.fillStyle = colour("floor");
+  pen.fillRect(0, 0, f.width, top);
+  one.box = [0, 0, f.width, top];
+  const [, , y0] = one.frame;
+  pen.fillStyle = colour("ground");
+  pen.fillRect(0, y0, f.width, Math.max(0, top - y0));
+  pen.fillStyle = colour("muted");
+  pen.fillRect(0, y0 - 0.5, f.width, 1.5);
+  one.draw(pen, [0, 0, f.width, top]);
+  pen.font = "600 15px system-ui, sans-serif";
+  pen.textAlign = "left";
+  pen.textBaseline = "top";
+  pen.fillStyle = colour("ink");
+  lines.forEach((line, i) => pen.fillText(line, 12, 12 + 22 * i));
+}
+
+// Statues and runners
 
 figure("bonus", {
   title: "Statue or runner",
@@ -99,23 +298,8 @@ function plots(f) {
 }
 
 function drawHopper(f, pen) {
-  const { top } = plots(f);
   const one = chosen(f);
-  pen.fillStyle = colour("floor");
-  pen.fillRect(0, 0, f.width, top);
-  one.box = [0, 0, f.width, top];
-  const [scale, , y0] = one.frame;
-  pen.fillStyle = colour("ground");
-  pen.fillRect(0, y0, f.width, Math.max(0, top - y0));
-  pen.fillStyle = colour("muted");
-  pen.fillRect(0, y0 - 0.5, f.width, 1.5);
-  one.draw(pen, [0, 0, f.width, top]);
-  pen.font = "600 15px system-ui, sans-serif";
-  pen.textAlign = "left";
-  pen.textBaseline = "top";
-  pen.fillStyle = colour("ink");
-  pen.fillText(`${number(metres(one), 1)} m`, 12, 12);
-  if (one.fell) pen.fillText("fallen", 12, 34);
+  drawStage(f, pen, one, plots(f).top, [`${number(metres(one), 1)} m`, one.fell ? "fallen" : ""]);
 }
 
 function drawRows(f, plot) {

@@ -2,9 +2,8 @@
 
 #include <nanobind/stl/unique_ptr.h>
 
-#include "arena.hpp"
+#include "aim.hpp"
 #include "arena/engine/expression.hpp"
-#include "spatial.hpp"
 
 namespace botschool {
 namespace {

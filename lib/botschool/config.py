@@ -27,6 +27,7 @@ from botschool.evolution.algorithms.own import OwnConfig
 from botschool.evolution.algorithms.sss import SSSConfig
 from botschool.inifile import Entry, nearest, read_sections, refusal, shown
 from botschool.policies.hyperparameters import NO_YES, PolicyConfig, conflicts, hyper, one_layer
+from botschool.problems import physics
 from botschool.problems.native import NATIVE, own_name
 from botschool.wrappers import keywords, parse, spelled
 
@@ -88,6 +89,12 @@ class Exp:
         "an expression that ends an episode where it is true, as height < 0.2",
         check=str,
         form="an expression over quantities that `botschool problems NAME` lists",
+    )
+    physics: str = hyper(
+        "",
+        "numbers of a runner's world, or ranges from which each episode draws them",
+        check=physics.read,
+        form="name=number or name=low..high, as in gravity=3.7, friction=0.4..1.2",
     )
 
 

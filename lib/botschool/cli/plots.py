@@ -77,8 +77,14 @@ def landscape(
     ] = 0.4,
     episodes: Annotated[int, typer.Option(min=1, max=10_000, help="Episodes of each point.")] = 5,
     workers: Annotated[int, typer.Option("-w", "--workers", min=1, max=1024, help="Cores.")] = 1,
+    physics: Annotated[
+        str,
+        typer.Option(help="Instead: along other physics of its world.", metavar="NAME=LOW..HIGH"),
+    ] = "",
 ) -> None:
     """Draw the fitness around a robot, along two random directions of its parameters.
+
+    With --physics friction=0.2..2, draw the robot's returns against that number (21 points).
 
     All points play the same episodes. The normalisation and, for an evolved body, its parameters
     belong to the genotype: the first stays, the others change like all parameters.
@@ -90,9 +96,15 @@ def landscape(
 
     path = own_file(genotype, "genotypes")
     robot, experiment = read_genotype(path), experiment_of(file)
+    if physics:
+        from botschool.analysis.worlds import worlds_command
+
+        where = (physics, output, seed, min(points, 21), max(episodes, 20), workers)
+        return worlds_command(experiment, robot, path.name, *where)
     odd = points + 1 - points % 2  # so that the robot is the point in the middle
-    where = (output, seed, odd, reach, episodes, workers)
-    landscape_command(experiment, robot, path.name, *where)
+    return landscape_command(
+        experiment, robot, path.name, output, seed, odd, reach, episodes, workers
+    )
 
 
 @app.command(epilog="Example: botschool plotave results/acrobot results/pendulum -o average.png")

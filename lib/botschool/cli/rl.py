@@ -204,6 +204,15 @@ def rl_train(
         Path | None,
         typer.Option(help="Continue a training of the native engine.", metavar="FOLDER"),
     ] = None,
+    reward: Annotated[
+        str, typer.Option(help="Instead of a native problem's reward.", metavar="EXPRESSION")
+    ] = "",
+    ends: Annotated[
+        str, typer.Option(help="Instead of its end of an episode.", metavar="EXPRESSION")
+    ] = "",
+    physics: Annotated[
+        str, typer.Option(help="Of a runner's world: gravity=3.7, ...", metavar="NUMBERS")
+    ] = "",
 ) -> None:
     """Train an agent in a new folder; defaults depend on algorithm and environment."""
     from botschool.rl.training import resume_command, train_command
@@ -220,6 +229,7 @@ def rl_train(
     options |= {"evaluations": evaluations, "episodes": episodes}
     options |= {"wrappers": ", ".join(wrapper or []), "vec_env": vec_env, "engine": engine}
     options |= {"replications": replications, "workers": workers}
+    options |= {"own": {"reward": reward, "ends": ends, "physics": physics}}
     terminal = sys.stdout.isatty()
     if not train_command(algo, env, items, output, terminal, events, settings, **options):
         raise typer.Exit(130)

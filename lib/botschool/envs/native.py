@@ -31,8 +31,8 @@ class NativeEnv(gymnasium.Env):
     means the problem's own. morphology: parameters of an evolved body, None for zeros. arena: for
     ErArena, a botschool.arena.Plan with one robot, or an experiment file with a section [ARENA];
     None means the default plan. reward, ends: expressions in place of the problem's own reward and
-    end of episodes. Others are options of the problem, as files take them: slope=0.1. Raises
-    BotschoolError.
+    end of episodes; physics: numbers of a runner's world. Others are options of the problem, as
+    files take them: slope=0.1. Raises BotschoolError.
     """
 
     metadata: ClassVar[dict] = {"render_modes": RENDER_MODES}
@@ -48,6 +48,7 @@ class NativeEnv(gymnasium.Env):
         options: str = "",
         reward: str = "",
         ends: str = "",
+        physics: str = "",
         **named: Any,
     ) -> None:
         self.render_mode = render_mode
@@ -68,6 +69,7 @@ class NativeEnv(gymnasium.Env):
             options=options,
             reward=reward,
             ends=ends,
+            physics=physics,
         )
         if self._simulation.interface.robots > 1:
             raise BotschoolError(

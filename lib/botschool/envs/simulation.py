@@ -38,13 +38,14 @@ class Simulation:
         options: str = "",
         reward: str = "",
         ends: str = "",
+        physics: str = "",
     ) -> None:
         if render_mode not in (None, *RENDER_MODES):
             raise BotschoolError(
                 f"render_mode is one of {', '.join(RENDER_MODES)} or None, not {render_mode!r}."
             )
         self._problem = NativeProblem(
-            problem, robots, plan=plan, options=options, reward=reward, ends=ends
+            problem, robots, plan=plan, options=options, reward=reward, ends=ends, physics=physics
         )
         self.info = INFOS[problem] | {"seconds": 1 / self._problem.fps}
         self.interface = self._problem.interface

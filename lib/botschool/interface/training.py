@@ -35,6 +35,9 @@ def train(
     policy: str | None = None,
     envs: int | None = None,
     wrappers: str = "",
+    reward: str = "",
+    ends: str = "",
+    physics: str = "",
     progress: bool | None = None,
     **hyperparameters: Any,
 ) -> Agent:
@@ -45,8 +48,8 @@ def train(
     steps: of training; None for the problem's default, as for all hyperparameters (learning_rate,
     gamma ...). folder: of trainings, each of which gets a new folder in it; without one the files
     go when the agent goes. workers: threads of the native engine. policy, envs, wrappers: as in
-    `botschool rl train`. Ctrl-C keeps what was trained and raises KeyboardInterrupt. Raises
-    BotschoolError.
+    `botschool rl train`. reward, ends, physics: of a native problem, as in experiment
+    files. Ctrl-C keeps what was trained and raises KeyboardInterrupt. Raises BotschoolError.
     """
     from botschool.rl.model import choose
     from botschool.rl.native.problem import native_problem
@@ -58,7 +61,16 @@ def train(
         check_words(hyperparameters)
         seed, workers = whole("seed", seed, 0), whole("workers", workers)
         settings = choose(
-            algo, env, policy, hyperparameters, envs, steps, seed, wrappers=wrappers, engine=engine
+            algo,
+            env,
+            policy,
+            hyperparameters,
+            envs,
+            steps,
+            seed,
+            wrappers=wrappers,
+            engine=engine,
+            own={"reward": reward, "ends": ends, "physics": physics},
         )
         if settings.engine != "native" and engine != "sb3":
             print(

@@ -142,6 +142,8 @@ def for_core(experiment: Experiment, problem: NativeProblem) -> dict:
     limit = problem.steps(p.maxsteps)
     return {
         "problem": problem.dynamics,
+        "reward": problem.reward,
+        "ends": problem.ends,
         "spec": named("network", {key: getattr(p, key) for key in NETWORK}),
         "evaluation": named(
             "evaluation",

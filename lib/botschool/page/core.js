@@ -38,8 +38,7 @@ class Core {
   // Returns settings in the order in which the core reads a group; throws unless it knows these and no others.
   settings(group, given) {
     const place = this.lend([Core.text(group)], (name) => this.c.settings(name));
-    const bytes = new Uint8Array(this.c.memory.buffer, place);
-    const names = new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0))).split(",").slice(0, -1);
+    const names = this.read(place).split(",").slice(0, -1);
     const odd = [...names.filter((name) => !(name in given)), ...Object.keys(given).filter((name) => !names.includes(name))];
     if (odd.length) throw new Error(`this page and its core do not have the same ${group} settings (${odd.join(", ")}): write the page again`);
     return Float64Array.from(names, (name) => given[name]);
@@ -49,13 +48,32 @@ class Core {
     return new TextEncoder().encode(`${words}\0`);
   }
 
-  // Returns a problem with a network, or with an agent of policy gradients (which has layers).
-  task({ problem, spec, layers, agent = false }) {
+  // Returns a problem with a network, or with an agent of policy gradients (which has layers); reward, ends:
+  // expressions in place of the problem's own.
+  task({ problem, spec, layers, agent = false, reward = "", ends = "" }) {
     const make = agent ? this.c.agent : this.c.task;
     const numbers = [...this.settings(agent ? "agent" : "network", spec), ...(layers ?? [])];
     const task = this.lend([Core.text(problem), Float64Array.from(numbers)], (...places) => make(...places));
     if (!task) throw new Error(`there is no problem ${problem}`);
+    const wrong = reward || ends ? this.pay(task, reward, ends) : "";
+    if (wrong) throw new Error(wrong);
     return task;
+  }
+
+  // Gives a task a reward and ends of its own, "" for the problem's; returns what is wrong with them, or "".
+  pay(task, reward, ends = "") {
+    return this.lend([Core.text(reward), Core.text(ends)], (r, e) => this.read(this.c.pay(task, r, e)));
+  }
+
+  // Returns what a reward may name: [name, unit, meaning] each.
+  quantities(task) {
+    return this.read(this.c.quantities(task)).trim().split("\n").map((line) => line.split("\t"));
+  }
+
+  // Returns the text at an address, up to its end.
+  read(place) {
+    const bytes = new Uint8Array(this.c.memory.buffer, place);
+    return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
   }
 
   // Returns the parameters of a seed's first random networks, one after another.

@@ -29,6 +29,7 @@ def make(
     plan: Plan | None = None,
     reward: str = "",
     ends: str = "",
+    physics: str = "",
 ) -> Problem:
     """Return the problem with that name; robots: kinds of its wheeled robots, () for its own; plan:
     a declared arena, for ErArena.
@@ -37,12 +38,15 @@ def make(
     Gymnasium environment. options: keywords of the environment's constructor; a native
     runner has its own (botschool.problems.space). competitive: two sides evolve
     against each other in it. reward, ends: expressions in place of a native problem's own reward
-    and end of episodes (botschool.problems.rewards). Raises BotschoolError if there is no such
-    problem, or if it has no such robots, wrappers, options or quantities.
+    and end of episodes (botschool.problems.rewards); physics: numbers of its world. Raises
+    BotschoolError if there is no such problem, or if it has no such robots, wrappers, options
+    or quantities.
     """
     name = own_name(name)
     if name in NATIVE and not wrappers:
-        return NativeProblem(name, robots, plan=plan, options=options, reward=reward, ends=ends)
+        return NativeProblem(
+            name, robots, plan=plan, options=options, reward=reward, ends=ends, physics=physics
+        )
     if plan is not None and name == PROBLEM:
         raise BotschoolError(f"A declared arena takes no wrappers: remove wrappers = {wrappers}.")
     if name in NATIVE and NativeProblem(name).interface.robots > 1:
@@ -50,11 +54,12 @@ def make(
             f"{name} has several robots, which no wrapper fits: remove the line wrappers = "
             f"{wrappers}."
         )
-    own = {key: text for key, text in (("reward", reward), ("ends", ends)) if text}
+    chosen = {"reward": reward, "ends": ends, "physics": physics}
+    own = {key: text for key, text in chosen.items() if text}
     if own and name not in NATIVE:
         raise BotschoolError(
             f"{next(iter(own))} is for native problems, which `botschool problems` lists; {name} "
-            "runs in Python: change its reward by a wrapper."
+            "runs in Python: change it by a wrapper."
         )
     if own:
         options = ", ".join(
@@ -93,7 +98,7 @@ def of(experiment) -> Problem:
     exp = experiment.exp
     robots = [name.strip() for name in exp.robots.split(",") if name.strip()]
     chosen: dict = {"options": exp.options, "competitive": experiment.competitive}
-    chosen |= {"reward": exp.reward, "ends": exp.ends}
+    chosen |= {"reward": exp.reward, "ends": exp.ends, "physics": exp.physics}
     try:
         return make(exp.environment, robots, exp.wrappers, **chosen, plan=experiment.plan)
     except BotschoolError:

@@ -9,7 +9,7 @@ import os
 import re
 import sys
 import warnings
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from contextlib import suppress
 
 import gymnasium
@@ -17,7 +17,6 @@ import gymnasium
 from botschool.errors import BotschoolError, said
 from botschool.paths import look_here
 from botschool.problems import faces  # noqa: F401  (registers our own)
-
 from botschool.problems.native import CLASSIC, NATIVE, gym_id, own_name
 from botschool.terminal import has_display
 from botschool.wrappers import Wrapper
@@ -93,11 +92,11 @@ OWN = {"reward", "ends", "physics"}
 """Options that only native problems take."""
 
 
-def _registered(name: str, options: dict) -> str:
+def _registered(name: str, options: Collection[str] = ()) -> str:
     """Return the id under which Gymnasium knows it; another package may own the plain id."""
     name = gym_id(name)
     if name.startswith(CLASSIC):  # Gymnasium has it, too, but with its own reward
-        return f"botschool/{name}" if OWN & options.keys() and name in NATIVE else name
+        return f"botschool/{name}" if OWN & set(options) and name in NATIVE else name
     if name in NATIVE and name not in gymnasium.registry:
         return NATIVE[name][0]
     return f"botschool/{name}" if f"botschool/{name}" in gymnasium.registry else name

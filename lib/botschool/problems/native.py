@@ -77,13 +77,15 @@ class NativeProblem(Problem):
         options: str = "",
         reward: str = "",
         ends: str = "",
+        physics: str = "",
     ) -> None:
         """Make the problem; options: of a runner (botschool.problems.space).
 
-        reward, ends: expressions in place of the problem's own reward and end of episodes.
+        reward, ends: expressions in place of the problem's own reward and end of episodes. physics:
+        numbers of a runner's world (botschool.problems.physics).
         """
         self.name = name
-        chosen = options_of(name, options)
+        chosen = options_of(name, options, physics)
         self.alive = chosen.alive
         """A runner's reward for each step that does not end its episode early, in addition to the
         problem's own."""

@@ -8,11 +8,11 @@ from typing import Any
 from botschool import _core
 from botschool.errors import BotschoolError
 from botschool.inifile import nearest
+from botschool.problems import physics
 from botschool.problems.finding import find, say
 from botschool.problems.robot import Robot
 from botschool.wrappers import keywords
 
-VARY = ("ground", "mass", "motors", "delay", "noise")
 DECLARED = "SpatialBody-v0"
 """The problem whose body its user may declare; without one it is the ant's."""
 RUNNERS = tuple(
@@ -31,9 +31,7 @@ SPACE = (
 
 RANGES: dict[str, tuple[str, float, float, float]] = {
     "alive": ("the reward for each step without a fall", 0.0, -100, 100),
-    "slope": ("metres that the ground rises with each metre ahead", 0.0, -1, 1),
-    "step": ("metres that the ground rises at x = 2", 0.0, -0.5, 0.5),
-    "bumps": ("height of the ground's bumps in metres", 0.0, 0, 0.2),
+    **{key: tuple(physics.NUMBERS[key]) for key in ("slope", "step", "bumps")},
 }
 BODY: dict[str, tuple[str, float, float, float]] = {
     "seconds": ("length of a step", 0.02, 0.001, 0.1),
@@ -57,13 +55,19 @@ class Options:
     robot: Robot | None = None
 
 
-def options_of(name: str, text: str) -> Options:
-    """Return the options of a native problem from `alive=0.5, vary='ground, mass'`.
+def options_of(name: str, text: str, numbers: str = "") -> Options:
+    """Return the options of a native problem from `alive=0.5, vary='ground, mass'`; numbers: its
+    physics (botschool.problems.physics).
 
     Raises BotschoolError.
     """
     space, declared = name in SPACE or name == DECLARED, name == DECLARED
-    if not text:
+    if numbers and not (name in RUNNERS or space):
+        raise BotschoolError(
+            f"{name} has no physics in numbers, which runners and bodies in space have: remove "
+            f"the line physics = {numbers}."
+        )
+    if not (text or numbers):
         return Options()
     if not (name in RUNNERS or space):
         raise BotschoolError(f"{name} takes no options: remove the line options = {text}.")
@@ -77,15 +81,14 @@ def options_of(name: str, text: str) -> Options:
                 f"{name} has no option '{key}': {nearest(key, words)}. It takes {', '.join(words)}."
             )
     value = {key: _number(key, given.get(key, row[1]), row) for key, row in known.items()}
-    ground = [value[key] if space else 0.0 for key in ("slope", "step", "bumps")]
-    race = _core.Race(ground, _varied(given))
+    race = _core.Race(physics.rows(_spans(given, value, numbers)))
     if not declared or not given.keys() & {"robot", "urdf"}:
         needless = sorted(given.keys() & BODY.keys())
         if needless:
             raise BotschoolError(
                 f"{needless[0]} is of a robot of your own: add robot='my_robot.xml' to the options."
             )
-        return Options(value["alive"], race if given.keys() - {"alive"} else None)
+        return Options(value["alive"], race if numbers or given.keys() - {"alive"} else None)
     return _declared(given, value, race)
 
 
@@ -98,6 +101,20 @@ def _number(key: str, value: Any, row: tuple[str, float, float, float]) -> float
     return float(value)
 
 
+def _spans(given: dict, value: dict[str, float], numbers: str) -> physics.Spans:
+    """Return the ranges of the options and of `physics`. Raises BotschoolError."""
+    spans = physics.read(numbers)
+    older: physics.Spans = {key: (value[key], value[key]) for key in value.keys() & given.keys()}
+    older = {key: span for key, span in older.items() if key in ("slope", "step", "bumps")}
+    for word in _varied(given):
+        older |= physics.VARY[word]
+    if twice := sorted(spans.keys() & older.keys()):
+        raise BotschoolError(
+            f"{twice[0]} stands in physics and in options (vary names ranges, too): keep one."
+        )
+    return spans | older
+
+
 def _varied(given: dict) -> list[str]:
     text = given.get("vary", "")
     names = (
@@ -105,10 +122,11 @@ def _varied(given: dict) -> list[str]:
         if isinstance(text, str)
         else None
     )
-    if names is None or not set(names) <= set(VARY):
-        wrong = next((word for word in names or () if word not in VARY), text)
+    if names is None or not set(names) <= set(physics.VARY):
+        wrong = next((word for word in names or () if word not in physics.VARY), text)
         raise BotschoolError(
-            f"vary = {wrong!r} is not possible: write some of {', '.join(VARY)} in quotes, as in "
+            f"vary = {wrong!r} is not possible: write some of "
+            f"{', '.join(physics.VARY)} in quotes, as in "
             "vary='ground, mass'."
         )
     return names

@@ -79,7 +79,7 @@ class Agent:
         if settings.engine == "native":
             return _native(path, settings, env)
         check_trusted(path, settings.policy, policy)
-        own = make(settings.env, settings.wrappers)
+        own = make(settings.env, settings.wrappers, **settings.own)
         if env is not None and env != settings.env:
             _check_same(settings.env, own, env, make(env, settings.wrappers))
         with weights.reading(path):

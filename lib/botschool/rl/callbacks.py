@@ -60,7 +60,7 @@ class PostEvaluation(BaseCallback):
         self.found: Evaluations | None = None
         first = settings.seed + POST_EVALUATION_SEED
         self._seeds = list(range(first, first + settings.episodes))
-        self._envs = [make(settings.env, settings.wrappers) for _ in self._seeds]
+        self._envs = [make(settings.env, settings.wrappers, **settings.own) for _ in self._seeds]
         self._every = max(1, settings.steps // max(1, settings.evaluations))
         self._saved = self._reported = time.monotonic()
 

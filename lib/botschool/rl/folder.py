@@ -116,7 +116,7 @@ class RunFolder:
         from botschool.rl.environments import make
 
         settings = self.settings()
-        return make(settings.env, settings.wrappers, **options)
+        return make(settings.env, settings.wrappers, **settings.own, **options)
 
     def save_evaluations(self, evaluations: Evaluations) -> None:
         """Write evaluations.npz. Raises BotschoolError."""

@@ -14,6 +14,7 @@ import gymnasium
 import numpy as np
 from gymnasium import spaces
 
+from botschool import problems
 from botschool.errors import BotschoolError, said
 from botschool.inifile import shown
 from botschool.problems.native import gym_id
@@ -74,12 +75,13 @@ def choose(
     wrappers: str = "",
     vec_env: str = "dummy",
     engine: str = "auto",
+    own: dict[str, str] | None = None,
 ) -> Settings:
     """Return the settings of a training; defaults.yaml and benchmarks.yaml complete them.
 
     wrappers: replace the wrappers that the files name for the environment; "none" means no
     wrappers. engine: native (botschool.rl.native), sb3 (Stable-Baselines3), or auto (native where
-    possible). Raises BotschoolError.
+    possible). own: `reward`, `ends` and `physics` of a native problem. Raises BotschoolError.
     """
     algo, env = check_algorithm(algo), gym_id(env)
     given, options = spellings.translated(params or {})
@@ -88,11 +90,14 @@ def choose(
     policy = None if policy is None else check_policy(policy, algo)
     if vec_env not in VEC_ENVS:
         raise BotschoolError(f"--vec-env is '{shown(vec_env)}', but must be dummy or subproc.")
+    chosen = {name: str(text) for name, text in (own or {}).items() if text not in ("", None)}
+    if chosen:
+        check_own(env, chosen)
     native = choosing.is_wanted(engine, algo, env, policy, given, wrappers, vec_env)
     entry = choosing.entry_of(env) if native else defaults(algo, env)
     length, width = entry.pop("steps"), entry.pop("envs")
     width = width if envs is None else envs
-    own = (
+    parts = (
         choosing.settings_of(entry, given, width)
         if native
         else _settings_of(algo, env, policy, entry, given, width, wrappers)
@@ -107,8 +112,14 @@ def choose(
         episodes=episodes,
         given=given,
         vec_env=vec_env,
-        **own,
+        own=chosen,
+        **parts,
     )
+
+
+def check_own(env: str, own: dict[str, str]) -> None:
+    """Raise BotschoolError if the environment cannot have this reward, end or physics."""
+    problems.make(env, **own)
 
 
 def _settings_of(

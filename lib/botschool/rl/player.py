@@ -72,7 +72,8 @@ class Player:
         self._keep(total, step)
 
     def _make(self, **options: object) -> gymnasium.Env:
-        return make(self.env, self.settings.wrappers, **options)
+        own = self.settings.own if self.env == self.settings.env else {}
+        return make(self.env, self.settings.wrappers, **own, **options)
 
     def _seed(self, number: int) -> int:
         return self.seed + NEW_EPISODES_SEED + number

@@ -23,7 +23,7 @@ VEC_ENVS = ("dummy", "subproc")
 """Where parallel environments run: all in this process, or each in a process of its own."""
 
 
-LATER = {"wrappers", "vec_env", "training_wrappers", "engine"}
+LATER = {"wrappers", "vec_env", "training_wrappers", "engine", "own"}
 """Settings that trainings of older versions lack."""
 
 
@@ -66,6 +66,8 @@ class Settings:
     """Wrappers for training only, not for evaluation, such as clipped rewards of Atari games."""
     engine: str = "sb3"
     """The engine that trained: sb3 (Stable-Baselines3) or native (botschool.rl.native)."""
+    own: dict[str, str] = field(default_factory=dict)
+    """`reward`, `ends` and `physics` of a native problem, as in experiment files."""
 
     @property
     def variant(self) -> str:
@@ -74,7 +76,8 @@ class Settings:
         given = [f"{name}={value}" for name, value in self.given.items()]
         usual = defaults(self.algo, self.env).get("wrappers") if self.algo in ALGORITHMS else ""
         wrappers = [self.wrappers] if self.wrappers != usual else []
-        return " ".join([*policy, *given, *filter(None, wrappers)])
+        own = [f"{name}={text}" for name, text in self.own.items()]
+        return " ".join([*policy, *given, *filter(None, wrappers), *own])
 
     def save(self, path: Path) -> None:
         """Write the settings as a YAML file. Raises BotschoolError."""
@@ -112,7 +115,7 @@ def _is_right(name: str, value: object) -> bool:
     """Return whether a training has such a setting."""
     if name in COUNTS:
         return type(value) is int and COUNTS[name] <= value < 2**63
-    kinds = {"normalize": bool, "parameters": dict, "given": dict, "versions": dict}
+    kinds = {"normalize": bool, "parameters": dict, "given": dict, "versions": dict, "own": dict}
     return isinstance(value, kinds.get(name, str))
 
 

@@ -164,7 +164,7 @@ def _training_env(settings: Settings) -> Iterator[VecEnv]:
 
     kind = DummyVecEnv if settings.vec_env == "dummy" else ProcessVecEnv
     names = (settings.env, settings.wrappers, settings.training_wrappers)
-    env = kind([partial(_monitored, *names)] * settings.envs)
+    env = kind([partial(_monitored, *names, **settings.own)] * settings.envs)
     env.seed(settings.seed)
     if settings.normalize:
         env = VecNormalize(env, gamma=settings.parameters.get("gamma", 0.99))
@@ -174,13 +174,13 @@ def _training_env(settings: Settings) -> Iterator[VecEnv]:
         env.close()
 
 
-def _monitored(name: str, wrappers: str, training_wrappers: str) -> gymnasium.Env:
+def _monitored(name: str, wrappers: str, training_wrappers: str, **own: str) -> gymnasium.Env:
     from stable_baselines3.common.monitor import Monitor
 
     from botschool.rl.environments import Brief, make
     from botschool.wrappers import parse
 
-    env = Monitor(Brief(make(name, wrappers)))
+    env = Monitor(Brief(make(name, wrappers, **own)))
     for wrapper in parse(training_wrappers):
         env = wrapper.around(env, name)
     return env

@@ -1,6 +1,7 @@
-"""What the figures of exercise 9 need: hoppers that evolved with other bonuses for standing.
+"""What the figures of exercise 9 need: hoppers that evolved with other bonuses for standing, and
+three rewards to begin with.
 
-`python tools/studies bonus` evolves them, in some minutes.
+`python tools/studies bonus` evolves the hoppers, in some minutes.
 """
 
 from base64 import b64encode
@@ -9,9 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from botschool import config
+from botschool import config, problems
+from botschool.page import for_core
 from botschool.page.exercise import robot
 from botschool.paths import material
+from botschool.problems.native import NativeProblem
 
 CORE = "planar"
 FILE = Path(__file__).with_suffix(".npy")
@@ -31,8 +34,42 @@ def experiment(bonus: float) -> config.Experiment:
     return read
 
 
+STARTS = {
+    "statue": "ahead + not ended",
+    "leaper": "ahead + 3 * max(rise, 0)",
+    "runner": "ahead",
+}
+"""Rewards to begin with; the hoppers that `starts()` evolves for them are in STARTED."""
+STARTED = FILE.with_name("ex09_starts.npy")
+
+
+def starts(steps: int = 4_000_000, seed: int = 1) -> np.ndarray:
+    """Return a hopper for each of STARTS, as the page evolves it, (starts, numbers), float32."""
+    from botschool.interface.evolving import evolve
+
+    runs = []
+    for reward in STARTS.values():
+        own = experiment(0.0)
+        own.exp.options, own.exp.reward = "", reward
+        runs.append(evolve(own, seed=seed, steps=steps, progress=False))
+    return np.array([run.best for run in runs], np.float32)
+
+
 def data() -> dict[str, Any]:
-    """Return the hopper, and the numbers of all evolved ones, one after another."""
+    """Return the hopper, the numbers of all evolved ones, one after another, and the starts."""
     hopper = robot("planarhopper.ini", **NETWORK)
-    evolved = b64encode(np.load(FILE).tobytes()).decode()
-    return {"hopper": hopper, "bonuses": BONUSES, "seeds": SEEDS, "evolved": evolved}
+    own = experiment(0.0)
+    own.exp.options = ""
+    problem = problems.of(own)
+    assert isinstance(problem, NativeProblem)
+    return {
+        "hopper": hopper,
+        "bonuses": BONUSES,
+        "seeds": SEEDS,
+        "evolved": b64encode(np.load(FILE).tobytes()).decode(),
+        "evolution": for_core(own, problem),
+        "starts": {
+            name: {"reward": reward, "robot": b64encode(each.astype("<f4").tobytes()).decode()}
+            for (name, reward), each in zip(STARTS.items(), np.load(STARTED), strict=True)
+        },
+    }

@@ -10,7 +10,7 @@ const dark = matchMedia("(prefers-color-scheme: dark)");
 const still = location.hash === "#still" || matchMedia("(prefers-reduced-motion: reduce)").matches;
 
 // Defines a figure. spec: title, tries, notice (one line each), says(f): a text for those who do not see
-// it, state(f): a fresh state, draw(f), and as needed aspect, status(f), sliders, choices, toggles,
+// it, state(f): a fresh state, draw(f), and as needed aspect, status(f), fields, sliders, choices, toggles,
 // buttons, keys, holds, grips(f), click(f, x, y), begin(f), changed(f, keys), step(f), fps. A grip is {name,
 // at, reach, move(x, y)}, or with by(dx, dy) a handle that stays where it is.
 function figure(name, spec) {
@@ -201,6 +201,7 @@ class Figure {
   build() {
     const { spec, row } = this;
     this.buttons = {};
+    for (const [key, field] of Object.entries(spec.fields ?? {})) this.addField(key, field);
     for (const [name, [label, key]] of Object.entries(spec.holds ?? {})) this.addHold(name, label, key);
     for (const [key, choice] of Object.entries(spec.choices ?? {})) this.addChoice(key, choice);
     for (const [key, slider] of Object.entries(spec.sliders ?? {})) this.addSlider(key, slider);
@@ -226,6 +227,45 @@ class Figure {
 
   pressed(name, on) {
     this.buttons[name].element.setAttribute("aria-pressed", Boolean(on));
+  }
+
+  // A line of text above the other controls; wrong(f, text): a sentence, or "". words(f): [word, meaning]
+  // each, which a click puts into the text.
+  addField(key, { label, wrong, words, about }) {
+    const box = made(this.section, "label", { className: "field" });
+    this.row.before(box);
+    made(box, "span", { innerHTML: label });
+    const input = made(box, "input", {}, { type: "text", spellcheck: false, autocomplete: "off", autocapitalize: "off", maxlength: 1000 });
+    const said = made(this.section, "p", { className: "said" }, { role: "status", id: `${this.name}-${key}-said` });
+    this.row.before(said);
+    input.setAttribute("aria-describedby", said.id);
+    input.oninput = () => this.set({ [key]: input.value });
+    input.onkeydown = (event) => { if (event.key === "Enter") this.spec.enter?.(this); };
+    if (words) {
+      const more = made(this.section, "details", { className: "words" });
+      this.row.before(more);
+      made(more, "summary", { textContent: about });
+      const list = made(more, "div");
+      for (const [word, meaning] of words(this)) {
+        const chip = made(list, "button", { textContent: word, title: meaning }, { "aria-label": `${word}: ${meaning}` });
+        chip.onclick = () => {
+          const at = [input.selectionStart ?? input.value.length, input.selectionEnd ?? input.value.length];
+          const before = input.value.slice(0, at[0]);
+          const gap = before && !/[\s(]$/.test(before) ? " " : "";
+          input.value = before + gap + word + input.value.slice(at[1]);
+          const end = at[0] + gap.length + word.length;
+          input.focus();
+          input.setSelectionRange(end, end);
+          this.set({ [key]: input.value });
+        };
+      }
+    }
+    this.controls[key] = () => {
+      if (input.value !== this.state[key]) input.value = this.state[key];
+      const sentence = wrong(this, this.state[key]);
+      said.textContent = sentence;
+      input.setAttribute("aria-invalid", Boolean(sentence));
+    };
   }
 
   addSlider(key, { label, low, high, step, show = (value) => String(value) }) {

@@ -31,6 +31,7 @@ def make(settings: Settings, threads: int = 1) -> PPO:
         settings.normalize,
         settings.steps,
         threads,
+        own=settings.own,
         **vars(h),
     )
 

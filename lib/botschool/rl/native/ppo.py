@@ -10,7 +10,7 @@ import numpy as np
 
 from botschool import _core, linear
 from botschool.errors import BotschoolError
-from botschool.problems.native import INFOS, gym_id
+from botschool.problems.native import INFOS, NativeProblem, gym_id
 from botschool.rl.native import problem
 from botschool.rl.native.hyperparameters import Hyperparameters, at
 
@@ -82,7 +82,8 @@ class PPO:
 
     env: a native problem with one robot, by any of its names. normalize: scale observations and
     rewards by their running mean and deviation. total_timesteps: the steps over which "linear X"
-    falls. threads: change the speed, not the result. The other arguments are Hyperparameters, with
+    falls. threads: change the speed, not the result. own: `reward`, `ends` and `physics` of
+    the problem, as in experiment files. The other arguments are Hyperparameters, with
     Stable-Baselines3's names and defaults. Raises BotschoolError.
     """
 
@@ -95,6 +96,7 @@ class PPO:
         total_timesteps: int = 1_000_000,
         threads: int = 1,
         instruction_set: str = "",
+        own: dict[str, str] | None = None,
         **hyperparameters: Any,
     ) -> None:
         self.env, self.seed, self.n_envs, self.normalize = gym_id(env), seed, n_envs, normalize
@@ -102,6 +104,8 @@ class PPO:
         self.hyperparameters = Hyperparameters.of(hyperparameters)
         self.problem, self.limit = problem.find(env)
         h = self.hyperparameters.core(seed, n_envs, normalize, threads)
+        if own:
+            h.choose(NativeProblem(self.problem, **own).options())
         try:
             self.core = _core.PolicyGradient(self.problem, self.limit, h, instruction_set)
         except ValueError as error:
