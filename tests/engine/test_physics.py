@@ -132,6 +132,7 @@ def test_only_bodies_have_physics():
         botschool.problem("CartPole-v1", physics="gravity=3")
 
 
+@pytest.mark.slow
 def test_a_curve_over_a_number_is_one_command(command, refused, tmp_path):
     file = tmp_path / "own.ini"
     file.write_text("[EXP]\nenvironment = PlanarHopper-v5\n[POLICY]\nnhiddens = 2\nmaxsteps = 20\n")

@@ -73,6 +73,7 @@ def test_a_reward_is_what_python_computes_from_the_states():
     assert ended
 
 
+@pytest.mark.slow
 def test_workers_resume_and_gymnasium_carry_the_reward(tmp_path):
     file = tmp_path / "own.ini"
     file.write_text(
@@ -160,3 +161,17 @@ def test_every_native_problem_names_quantities_with_meanings(name):
         else None
     )
     assert outcome is None or np.isfinite(outcome.fitness).all()
+
+
+@pytest.mark.slow
+def test_trainings_and_environments_take_a_reward(tmp_path):
+    own = {"reward": "7", "ends": "time > 0.99"}
+    agent = botschool.train("CartPole-v1", steps=2000, progress=False, **own)
+    assert agent.settings.own == own and agent.settings.engine == "native"
+    assert np.isfinite(agent.history["mean"]).all()
+    assert (agent.play(2) == 350).all()
+    with pytest.raises(BotschoolError, match="no quantity 'hieght'"):
+        botschool.train("PlanarHopper-v5", reward="hieght")
+    env = gymnasium.make("botschool/CartPole-v1", **own)
+    env.reset(seed=1)
+    assert env.step(0)[1] == 7

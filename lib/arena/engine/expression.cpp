@@ -230,6 +230,9 @@ class Compiler : public Words {
                                             : emit(Op::multiply, of, constant(-1));
     } else if (takes("+")) {
       value = signed_value();
+    } else if (takes("not")) {  // as in 2 * not ended
+      const Operand of = signed_value();
+      value = emit(Op::equal, of, constant(0));
     } else {
       value = power();
     }

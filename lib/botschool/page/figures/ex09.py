@@ -36,7 +36,7 @@ def experiment(bonus: float) -> config.Experiment:
 
 STARTS = {
     "statue": "ahead + not ended",
-    "leaper": "ahead + 3 * max(rise, 0)",
+    "leaper": "height * (foot_force == 0)",
     "runner": "ahead",
 }
 """Rewards to begin with; the hoppers that `starts()` evolves for them are in STARTED."""
