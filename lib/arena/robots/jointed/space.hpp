@@ -291,7 +291,7 @@ struct Space {
 
   /// Forces of the ground on all balls.
   void touch(T h) {
-    const bool flat = terrain.flat();
+    const bool flat = terrain.flat;
     touches = 0;
     for (int g = 0; g < numbers.groups; ++g) {
       const auto& group = numbers.group[g];
