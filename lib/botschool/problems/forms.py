@@ -158,10 +158,19 @@ class Forms:
                     half = turn[:, 2] * (size[1] if kind == int(kinds.mjGEOM_CAPSULE) else 0.0)
                     rows.append((link, *(at - half), *(at + half), size[0]))
                     continue
-                for one, other, radius in _slab(box[3:]):
+                disc = kind == int(kinds.mjGEOM_CYLINDER) and size[1] < size[0]
+                for one, other, radius in _disc(*size[:2]) if disc else _slab(box[3:]):
                     ends = at + turn @ (box[:3] + one), at + turn @ (box[:3] + other)
                     rows.append((link, *ends[0], *ends[1], radius))
         return np.array(rows, float).reshape(-1, 8)
+
+
+def _disc(radius: float, half: float) -> Iterator[tuple[np.ndarray, np.ndarray, float]]:
+    """Yield ends and radius of the spokes that a flat cylinder is drawn as."""
+    wide = max(half, 0.25 * radius)
+    for angle in np.arange(6) * np.pi / 6:
+        end = max(0.0, radius - wide) * np.array([np.cos(angle), np.sin(angle), 0.0])
+        yield end, -end, wide
 
 
 def _slab(half: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray, float]]:

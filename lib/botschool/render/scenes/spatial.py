@@ -122,8 +122,7 @@ def _bars(body: Any, looks: Any) -> Iterator[tuple]:
     """Yield each bar of a robot of one's own: link, one end, the other end, radius, colour."""
     places = body.places(np.eye(body.coordinates)[3])
     for link, *ends, radius in looks:
-        middle = np.add(ends[:3], ends[3:]) / 2
-        left = (places[int(link), 0] + middle @ places[int(link), 1:])[1]
+        left = places[int(link), 0, 1]
         colour = "pole" if abs(left) < 0.03 else "short pole" if left > 0 else "axle"
         yield int(link), *map(float, ends), float(radius), colour
 
