@@ -343,8 +343,11 @@ def visible(folder: Path) -> list[os.DirEntry]:
 
 
 def _is_hidden(entry: os.DirEntry) -> bool:
-    """Return whether a system or a tool left this behind; a folder may begin with a dot."""
-    return is_junk(entry.name) or (entry.name.startswith(".") and not is_folder(entry))
+    """Return whether a system or a tool left this behind; a person's folder may have a dot."""
+    if is_junk(entry.name) or not entry.name.startswith("."):
+        return is_junk(entry.name)
+    names = _names_in(Path(entry.path)) if is_folder(entry) else []
+    return not any(name.lower().endswith(OWN) for name in names)
 
 
 def _without_tables(folder: Path) -> list[os.DirEntry]:
