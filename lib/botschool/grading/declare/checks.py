@@ -146,7 +146,7 @@ def _but(said: str, value: Any, shape: tuple[int, ...]) -> str:
     elif isinstance(value, list) and shape:
         needed = f"shape {shape}"
     if value is None:
-        end = "" if came(said) == "is" else ": does it end without `return`?"
+        end = "" if came(said) in ("is", "are") else ": does it end without `return`?"
         return f"{said} {came(said)} None, but {needed} is needed{end}"
     was = kind(value)
     if isinstance(value, list) and (inner := np.shape(np.asarray(value))) and len(inner) > 1:
@@ -193,9 +193,15 @@ _CALL = re.compile(r"[\w.]+(?:[(,]|$)")
 _INSIDE = re.compile(r"\([^()]*\)|\[[^][]*\]|'[^']*'")
 
 
+_SEVERAL = re.compile(r"the (?:\w+ )?\w+[^aius\W]s\b(?! (?:and|or))")
+"""A name of several things: "the seeds of evaluate"."""
+
+
 def came(said: str) -> str:
     """Return the verb after a call, "rank(x)", or after a part of an answer, "play(x): best"."""
     outside = said
     while (shorter := _INSIDE.sub("", outside)) != outside:
         outside = shorter
-    return "returned" if _CALL.match(said) and ": " not in outside else "is"
+    if _CALL.match(said) and ": " not in outside:
+        return "returned"
+    return "are" if _SEVERAL.match(outside.rpartition(": ")[2]) else "is"

@@ -75,7 +75,8 @@ def _public(error: Wrong, student: Student) -> str:
         return f"Task {error.task} is not done yet." if error.task else ""
     if not error.wanted:
         return f"Then {student.pasted or student.said} is wrong."
-    return f"Then {error.said} is wrong: {error.wanted} was expected."
+    verb = "are" if came(error.said) == "are" else "is"
+    return f"Then {error.said} {verb} wrong: {error.wanted} was expected."
 
 
 def line_about(what: str) -> str:
