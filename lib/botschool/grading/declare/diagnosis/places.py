@@ -29,7 +29,10 @@ def of_shapes(got: tuple[int, ...], wanted: tuple[int, ...]) -> str:
     if len(got) == 2 and got == wanted[::-1]:
         return "The shape is that of the transpose (.T): are rows and columns exchanged?"
     if [n for n in got if n != 1] == [n for n in wanted if n != 1]:
-        return "There is one axis of length 1 too many, or one is missing: see keepdims, reshape and indexing."
+        return (
+            "There is one axis of length 1 too many, or one is missing: see keepdims, reshape and "
+            "indexing."
+        )
     if len(got) == len(wanted):
         apart = [i for i in range(len(got)) if got[i] != wanted[i]]
         near = len(apart) == 1 and abs(got[apart[0]] - wanted[apart[0]]) == 1
