@@ -5,7 +5,6 @@ They need the core for pages; `make test-all` builds it.
 
 import hashlib
 import json
-import os
 import re
 import shutil
 import subprocess
@@ -159,30 +158,6 @@ def test_run_files_are_the_command_s(problem, algo, tmp_path):
     experiment = experiment_of(problem, algo, **kinds.get(problem, {}))
     expected = digests_of_the_command(experiment, 3, tmp_path / "run")
     assert evolved_by_node(experiment, 3, tmp_path) == expected
-
-
-@pytest.fixture(scope="module")
-def baseline():
-    """Return the core of a problem, compiled without vector instructions."""
-    compiler = ROOT / ".venv/web-compiler"
-    if not compiler.exists():
-        pytest.skip("no compiler for pages: make web")
-
-    def built_core(problem):
-        part = page.part_of(problem)
-        folder = ROOT / "build/web-baseline" / part
-        path = {"PATH": f"{ROOT}/.venv/bin:{os.environ['PATH']}"}
-        options = [f"-DBOTSCHOOL_WEB={part}", "-DCMAKE_SYSTEM_NAME=Generic"]
-        options += ["-DCMAKE_SYSTEM_PROCESSOR=wasm32", f"-DCMAKE_CXX_COMPILER={compiler}"]
-        options += ["-DCMAKE_CXX_COMPILER_WORKS=ON", "-DCMAKE_CXX_FLAGS=-target wasm32-wasi -w"]
-        for command in (
-            ["cmake", "-G", "Ninja", "-S", ROOT / "lib", "-B", folder, *options],
-            ["cmake", "--build", folder],
-        ):
-            subprocess.run(command, env=os.environ | path, check=True, capture_output=True)
-        return str(folder / f"{part}.wasm")
-
-    return built_core
 
 
 @pytest.mark.slow
