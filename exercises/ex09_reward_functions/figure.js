@@ -34,6 +34,7 @@ figure("reward", {
         .map(([name, unit, meaning]) => [name, unit ? `${meaning}, in ${unit}` : meaning])
         .concat([["abs(", "the size of a number"], ["max(", "the larger number"], ["min(", "the smaller number"], ["where(", "where(b, x, y): x where b is true, else y"], ["change(", "how much a quantity has changed in this step"]]),
       about: "What a reward may name",
+      button: "evolve",
     },
   },
   choices: { start: { label: "begin with", options: { statue: "the statue", leaper: "the leaper", runner: "the runner" } } },
@@ -67,23 +68,28 @@ figure("reward", {
     const evolve = f.buttons.evolve.element;
     evolve.className = "main";
     evolve.textContent = f.worker ? "Stop" : "Evolve";
-    drawStage(f, pen, f.own, top, [`${number(f.own.state[0] - f.own.first, 1)} m`, f.own.fell ? "the episode has ended" : ""]);
+    drawStage(f, pen, f.own, top, [`${far(f.own)} m`, f.own.fell ? "the episode has ended" : ""]);
     drawProgress(f, curve);
   },
   status(f) {
     const { generation, steps, seconds } = f.state;
     if (f.trouble) return f.trouble;
-    if (!generation) return f.worker ? "the first generation …" : "evolved before, with the reward above: press Evolve to see it happen";
+    if (f.worker && !generation) return "the first generation …";
+    if (!generation) return f.state.start && f.learned ? "this one evolved for the reward above: press Evolve to see how" : "a hopper that has not evolved for this reward: press Evolve";
     return `generation ${generation} · ${number(steps / 1e6, 2)} million steps in ${number(seconds, 0)} s · the best hopper earns ${number(f.rows.at(-1)[1], 0)} in an episode`;
   },
-  says: (f) => `A hopper that evolves for the reward ${f.state.reward}. It is ${number(f.own.state[0] - f.own.first, 1)} metres ahead after ${number(f.own.steps * 0.008, 1)} seconds. ${f.state.generation ? `Generation ${f.state.generation}.` : ""}`,
+  says: (f) => `A hopper that evolves for the reward ${f.state.reward}. It is ${far(f.own)} metres ahead after ${number(f.own.steps * 0.008, 1)} seconds. ${f.state.generation ? `Generation ${f.state.generation}.` : ""}`,
 });
 
 const MOST = 4e6; // steps of an evolution in the page
 
+// Returns how far a hopper has come, without the minus of -0.0.
+const far = (one) => number(Math.round(10 * (one.state[0] - one.first)) / 10 + 0, 1);
+
 // Shows a robot that a page brings, or a random one.
 function shown(f, start) {
   f.trouble = "";
+  f.learned = Boolean(start);
   f.own.load(start ? Robot.saved(start) : f.own.random(1));
   again1(f, 0);
 }
@@ -174,8 +180,17 @@ function parts1(f) {
 }
 
 function drawProgress(f, curve) {
+  if (!f.rows.length) {
+    const { pen } = f;
+    const [, top, , height] = curve.box;
+    pen.font = "15px system-ui, sans-serif";
+    pen.textAlign = "center";
+    pen.textBaseline = "middle";
+    pen.fillStyle = colour("muted");
+    pen.fillText("here you will see what the hoppers earn", f.width / 2, top + height / 2);
+    return;
+  }
   curve.axes();
-  if (!f.rows.length) return;
   curve.clipped(() => {
     curve.line(f.rows.map(([steps, , mean]) => [steps / 1e6, mean]), "blue", 1.5, 0.7);
     curve.line(f.rows.map(([steps, best]) => [steps / 1e6, best]), "orange", 2.5);

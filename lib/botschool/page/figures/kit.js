@@ -229,21 +229,23 @@ class Figure {
     this.buttons[name].element.setAttribute("aria-pressed", Boolean(on));
   }
 
-  // A line of text above the other controls; wrong(f, text): a sentence, or "". words(f): [word, meaning]
-  // each, which a click puts into the text.
-  addField(key, { label, wrong, words, about }) {
-    const box = made(this.section, "label", { className: "field" });
-    this.row.before(box);
-    made(box, "span", { innerHTML: label });
-    const input = made(box, "input", {}, { type: "text", spellcheck: false, autocomplete: "off", autocapitalize: "off", maxlength: 1000 });
+  // A line of text above the picture, with one of the buttons; wrong(f, text): a sentence, or "". words(f):
+  // [word, meaning] each, which a click puts into the text.
+  addField(key, { label, wrong, words, about, button }) {
+    const box = made(this.section, "div", { className: "field" });
+    this.canvas.before(box);
+    const named = made(box, "label", { innerHTML: label }, { for: `${this.name}-${key}` });
+    const line = made(box, "div");
+    const input = made(line, "input", {}, { id: named.getAttribute("for"), type: "text", spellcheck: false, autocomplete: "off", autocapitalize: "off", maxlength: 1000 });
     const said = made(this.section, "p", { className: "said" }, { role: "status", id: `${this.name}-${key}-said` });
-    this.row.before(said);
+    this.canvas.before(said);
+    queueMicrotask(() => line.append(this.buttons[button].element));
     input.setAttribute("aria-describedby", said.id);
     input.oninput = () => this.set({ [key]: input.value });
     input.onkeydown = (event) => { if (event.key === "Enter") this.spec.enter?.(this); };
     if (words) {
       const more = made(this.section, "details", { className: "words" });
-      this.row.before(more);
+      this.canvas.before(more);
       made(more, "summary", { textContent: about });
       const list = made(more, "div");
       for (const [word, meaning] of words(this)) {
