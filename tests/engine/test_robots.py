@@ -377,6 +377,7 @@ samplesize = 2
 """
 
 
+@pytest.mark.slow
 def test_a_run_keeps_its_robot(tmp_path, command, refused):
     """It plays and goes on without the file, and not with another robot."""
     written(tmp_path, EXPERIMENT, "own.ini")
