@@ -22,7 +22,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from fuzz.kinds import KINDS, Kind
+from fuzz.kinds import KINDS, ROOT, Kind
 from fuzz.mutate import damaged_file
 from running import call, environment_of_command
 
@@ -88,7 +88,8 @@ def try_kind(name, arguments, folder, seconds) -> int:
 
 def run(words: str, folder: Path) -> tuple[int, str]:
     """Run a command in a folder; return its exit code and what it has written as errors."""
-    variables = environment_of_command(XDG_CONFIG_HOME=str(folder / "settings"), COLUMNS="200")
+    own = {"XDG_CONFIG_HOME": str(folder / "settings"), "BOTSCHOOL_COURSE": str(ROOT)}
+    variables = environment_of_command(COLUMNS="200", **own)
     code, _, errors = call(*shlex.split(words), cwd=folder, env=variables)
     return code, errors
 
