@@ -70,9 +70,7 @@ def test_a_typed_reward_evolves_with_the_numbers_of_the_command(page):
     rows = page.run(f"{figure}.rows.slice(0, 3)")
     page.run(f"{figure}.press('evolve')")
     assert page.run("decodeURIComponent(location.hash)") == f"#reward={reward}"
-    own = ex09.experiment(0.0)
-    own.exp.options, own.exp.reward = "", reward
-    run = evolve(own, seed=1, generations=3, progress=False)
+    run = evolve(ex09.start(reward), seed=1, generations=3, progress=False)
     stat = np.load(run.folder / "statS1.npy").reshape(-1, 6)
     assert [row[0] for row in rows] == stat[:, 0].tolist()
     assert [row[1] for row in rows] == stat[:, 2].tolist()

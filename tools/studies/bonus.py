@@ -1,8 +1,9 @@
-"""Evolve the hoppers that exercise 9's page shows, each with another bonus for standing.
+"""Evolve the hoppers that exercise 9's page shows: for bonuses, and for rewards to begin with.
 
     python tools/studies bonus [SEEDS]    seeds: for example 1 2 3
 
-Writes lib/botschool/page/figures/ex09.npy: robots as run files hold them, but in single precision.
+Writes ex09.npy and ex09_starts.npy in lib/botschool/page/figures: robots as run files hold them,
+but in single precision.
 A run takes about ten seconds.
 """
 
@@ -11,7 +12,10 @@ import sys
 import numpy as np
 
 from botschool.evolution.run import Run
-from botschool.page.figures.ex09 import BONUSES, FILE, SEEDS, experiment
+from botschool.page.figures.ex09 import BONUSES, FILE, SEEDS, STARTED, STARTS, experiment, start
+
+STEPS = 4_000_000
+"""Of an evolution for a reward to begin with, as in the page."""
 
 
 def main() -> None:
@@ -25,4 +29,12 @@ def main() -> None:
                 run.advance()
             found.append(run.record.bestg)
             print(f"bonus {bonus:g}, seed {seed}: {run.record.bestg_fitness:.0f}", flush=True)
+    begun = []
+    for reward in STARTS.values():
+        run = Run(start(reward), 1)
+        while run.record.steps < STEPS:
+            run.advance()
+        begun.append(run.record.bestg)
+        print(f"{reward}: {run.record.bestg_fitness:.0f}", flush=True)
+    np.save(STARTED, np.array(begun).astype("<f4"))
     np.save(FILE, np.reshape(found, (len(BONUSES), len(seeds), -1)).astype("<f4"))

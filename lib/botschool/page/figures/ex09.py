@@ -39,27 +39,21 @@ STARTS = {
     "leaper": "height * (foot_force == 0)",
     "runner": "ahead",
 }
-"""Rewards to begin with; the hoppers that `starts()` evolves for them are in STARTED."""
+"""Rewards to begin with; STARTED holds the hoppers that evolved for them."""
 STARTED = FILE.with_name("ex09_starts.npy")
 
 
-def starts(steps: int = 4_000_000, seed: int = 1) -> np.ndarray:
-    """Return a hopper for each of STARTS, as the page evolves it, (starts, numbers), float32."""
-    from botschool.interface.evolving import evolve
-
-    runs = []
-    for reward in STARTS.values():
-        own = experiment(0.0)
-        own.exp.options, own.exp.reward = "", reward
-        runs.append(evolve(own, seed=seed, steps=steps, progress=False))
-    return np.array([run.best for run in runs], np.float32)
+def start(reward: str) -> config.Experiment:
+    """Return the experiment that the page evolves for a reward."""
+    own = experiment(0.0)
+    own.exp.options, own.exp.reward = "", reward
+    return own
 
 
 def data() -> dict[str, Any]:
     """Return the hopper, the numbers of all evolved ones, one after another, and the starts."""
     hopper = robot("planarhopper.ini", **NETWORK)
-    own = experiment(0.0)
-    own.exp.options = ""
+    own = start("")
     problem = problems.of(own)
     assert isinstance(problem, NativeProblem)
     return {
