@@ -82,6 +82,11 @@ def _filled(ppo: PPO, model: Path) -> np.ndarray:
 
 def page_data(settings: Settings, ppo: PPO) -> dict[str, Any]:
     """Return what the page knows of a training."""
+    if "physics" in settings.own:
+        raise BotschoolError(
+            "A training with physics of its own cannot go into a page: pages have the robots' own "
+            "worlds."
+        )
     core, limit = find(settings.env)
     problem, h = NativeProblem(core), Hyperparameters.of(settings.parameters)
     shared, pi, vf = h.layers()
@@ -113,6 +118,8 @@ def page_data(settings: Settings, ppo: PPO) -> dict[str, Any]:
         "experiment": {
             "agent": True,
             "problem": core,
+            "reward": settings.own.get("reward", ""),
+            "ends": settings.own.get("ends", ""),
             "spec": named(
                 "agent",
                 {
