@@ -358,6 +358,7 @@ def test_extensions_times_and_groups_of_the_worksheet_count(course, tmp_path, co
     assert "Handed in by Ada Berg, group Equipo A." in back[2][-1] and back[0][-2] == "-"
 
 
+@pytest.mark.slow
 def test_keys_of_class_yaml_are_read_as_they_are_written(course, tmp_path, command):
     ids = ["00144", "12e4", "20261016", "77:30", "no", "null", "0x1F", "1_000"]
     rows = [HEAD, *([f"A B{chr(97 + n)}", id, ""] for n, id in enumerate(ids))]

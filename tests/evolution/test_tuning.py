@@ -96,7 +96,7 @@ def test_a_stopped_tuning_continues_and_its_best_file_runs(plan, tmp_path, comma
     def stopping():
         nonlocal asked
         asked += 1
-        return asked > 150
+        return asked > 40
 
     assert not tune(plan, stopping=stopping)
     assert len(trials(plan)) < 9

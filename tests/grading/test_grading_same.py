@@ -264,7 +264,7 @@ def test_an_answer_that_stays_is_named(graded, name, key):
 
 def test_the_smallest_call_is_shown(graded):
     _, messages = graded("def judged(value):\n    return {'value': value, 'word': 'low'}")
-    assert messages["4.5"].splitlines()[-1] == ("judged(0.2): value is 0.2, but 0.4 was expected.")
+    assert "judged(0.2): value is 0.2, but 0.4 was expected." in messages["4.5"].splitlines()
 
 
 def test_a_reason_switches_a_try_off(tmp_path, server):

@@ -21,6 +21,7 @@ def test_a_secret_that_can_be_guessed_is_refused(tmp_path, monkeypatch, refused,
     root = make_course(tmp_path / "course")
     monkeypatch.setenv("BOTSCHOOL_COURSE", str(root))
     monkeypatch.setenv(VARIABLE, secret)
+    monkeypatch.chdir(root)
     refused("grade", "3", "--submission", "solutions", says=["token_hex(16)", VARIABLE])
     with pytest.raises(BotschoolError, match="it can be found by trying"):
         load_exercise(3, root).seed(1)

@@ -269,6 +269,7 @@ class Climber(Stateful):
 '''
 
 
+@pytest.mark.slow
 def test_an_algorithm(tmp_path):
     scratch = Scratch(tmp_path)
     scratch.borrow_module()

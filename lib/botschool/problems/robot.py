@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from botschool import _core
-from botschool.errors import BotschoolError
+from botschool.errors import ANEW, BotschoolError
 from botschool.output import save_npz
 from botschool.wrappers import keywords
 
@@ -104,7 +104,8 @@ class Robot:
         if resumed and path.exists() and load(path).digest != self.digest:
             raise BotschoolError(
                 f"{self.path} is another robot than that of the run, {path}: restore its file (or "
-                f"MuJoCo's version), or use --force to start anew."
+                "MuJoCo's version)",
+                *ANEW,
             )
         self.save(path)
 

@@ -129,7 +129,7 @@ class Same:
         parts: tuple[str, ...],
         view: Callable[..., Any] | None,
         off: dict[str, str],
-        fixed: str,
+        fixed: str = "",
     ) -> None:
         """Take what `same` takes."""
         self.task, self.what, self.off, self.fixed = task, what, off, fixed
