@@ -96,8 +96,11 @@ def messages(server, tmp_path):
 def command(capfd, monkeypatch):
     """Call the command in this process; return (exit code, standard output, standard error)."""
     from botschool import cli
+    from botschool.problems import base, finding
 
     def call(*arguments):
+        for module in (base, finding):  # a program says a note once
+            module.say.cache_clear()
         monkeypatch.setattr(sys, "argv", ["botschool", *map(str, arguments)])
         capfd.readouterr()
         with pytest.raises(SystemExit) as end:

@@ -187,6 +187,7 @@ def balanced(make, seeds):
     return good
 
 
+@pytest.mark.slow
 def test_a_controller_balances_in_both():
     assert balanced(f"botschool/{NAME}", range(20)) == 20
     pytest.importorskip("pybullet")

@@ -95,10 +95,10 @@ OWN = {"reward", "ends", "physics"}
 def _registered(name: str, options: Collection[str] = ()) -> str:
     """Return the id under which Gymnasium knows it; another package may own the plain id."""
     name = gym_id(name)
+    if name in NATIVE and name not in gymnasium.registry:
+        name = NATIVE[name][0]
     if name.startswith(CLASSIC):  # Gymnasium has it, too, but with its own reward
         return f"botschool/{name}" if OWN & set(options) and name in NATIVE else name
-    if name in NATIVE and name not in gymnasium.registry:
-        return NATIVE[name][0]
     return f"botschool/{name}" if f"botschool/{name}" in gymnasium.registry else name
 
 
