@@ -9,9 +9,13 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from botschool import _core
 from botschool.sandbox.paths import IMPORT_ROOT
 
 OWN = "botschool"
+_CORE = f"{OWN}._core"
+CORE = Path(_core.__file__).resolve()
+"""The compiled module; of a checkout it does not lie beside the others."""
 _IMPORT = re.compile(
     rf"^[ \t]*(?:from ({OWN}[\w.]*) import (\([^)]*\)|[^\n]*)|import ({OWN}[\w.]*))", re.MULTILINE
 )
@@ -85,13 +89,13 @@ def closed_files(open_modules: frozenset[str]) -> tuple[Path, ...]:
         copies = place / "__pycache__"
         if shut and copies.is_dir():
             closed += [each for each in copies.iterdir() if each.name.partition(".")[0] in shut]
-    return tuple(closed)
+    return tuple(closed if _CORE in open_modules else [*closed, CORE])
 
 
 def _file(name: str) -> Path | None:
     """Return the file of a module of botschool; None if there is no such module."""
     *packages, last = name.split(".")
-    return _modules_in(IMPORT_ROOT.joinpath(*packages)).get(last)
+    return CORE if name == _CORE else _modules_in(IMPORT_ROOT.joinpath(*packages)).get(last)
 
 
 @cache
