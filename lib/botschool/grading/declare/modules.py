@@ -20,7 +20,7 @@ _IMPORT = re.compile(
     rf"^[ \t]*(?:from ({OWN}[\w.]*) import (\([^)]*\)|[^\n]*)|import ({OWN}[\w.]*))", re.MULTILINE
 )
 _ENTRY = re.compile(rf"[\"']({OWN}(?:\.\w+)+):\w")
-_FOR_TYPES = re.compile(r"^if TYPE_CHECKING:\n(?:[ \t]+.*\n|\n)*", re.MULTILINE)
+_FOR_TYPES = re.compile(r"^if TYPE_CHECKING:\n(?:[ \t].*\n|\n)*", re.MULTILINE)
 _ALWAYS = (OWN, f"{OWN}.sandbox")
 
 
@@ -41,7 +41,7 @@ def may_use(solution: str, grader: str) -> frozenset[str]:
     """
     graded = solution.partition("\nif __name__ ==")[0]
     named = {name for name in re.findall(rf"\b{OWN}(?:\.\w+)+", graded) if _file(name)}
-    drivers = imported("\n".join(re.findall(r"^[ \t]+.*", grader, re.MULTILINE)))
+    drivers = imported("\n".join(line for line in grader.split("\n") if line[:1] in (" ", "\t")))
     helpers = {name for name in imported(grader) if name.startswith(f"{OWN}.grading.run.")}
     return frozenset({*imported(graded), *named, *drivers, *helpers} - {OWN})
 
