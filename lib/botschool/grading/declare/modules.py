@@ -89,7 +89,7 @@ def closed_files(open_modules: frozenset[str]) -> tuple[Path, ...]:
         copies = place / "__pycache__"
         if shut and copies.is_dir():
             closed += [each for each in copies.iterdir() if each.name.partition(".")[0] in shut]
-    return tuple(closed if _CORE in open_modules else [*closed, CORE])
+    return tuple(closed)
 
 
 def _file(name: str) -> Path | None:
