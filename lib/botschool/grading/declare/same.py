@@ -269,6 +269,8 @@ class Same:
                     others = with_others(arguments, others, self._of_the_task)
                 for place, each in one_changed(arguments, others):
                     places.add(place)
+                    if not self._views(each):
+                        continue
                     if place not in felt and self._feels(arguments, each):
                         felt.add(place)
                     elif at >= bases:
@@ -291,6 +293,17 @@ class Same:
         checks = (check for _, _, check in self.task.checks)
         same = (each for each in checks if isinstance(each, Same) and each.what == self.what)
         return [arguments for check in same for arguments in check.inputs()]
+
+    def _views(self, arguments: tuple) -> bool:
+        """Return whether the view can look at our own answer to these arguments."""
+        if self.view is None:
+            return True
+        ours = self.task.exercise.ours.answer(self.what, arguments)
+        try:
+            self.view(ours.value, *arguments)
+        except Exception:  # arguments that need each other
+            return bool(ours.raised)
+        return True
 
     def _feels(self, arguments: tuple, changed: tuple) -> bool:
         """Return whether our answer changes with the arguments: only then a cache is seen."""
